@@ -16,9 +16,13 @@ import os
 import shutil
 import signal
 import subprocess
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 INSIDE = Path(__file__).resolve().parent / "inside"
@@ -82,6 +86,14 @@ def stock_blender() -> Path:
     return path
 
 
+def in_both(work: Callable[[str, Path], T]) -> tuple[T, T]:
+    """The results of `work(role, blender)` for the roles "stock" and "built", done side by side."""
+    blenders = {"stock": stock_blender(), "built": built_blender()}
+    with ThreadPoolExecutor(len(blenders)) as pool:
+        stock, built = pool.map(work, blenders, blenders.values())
+    return stock, built
+
+
 def host_source() -> Path:
     """The source tree of the built Blender (its own tests are in there)."""
     path = Path(os.environ.get("ICWAFER_BLENDER_SOURCE", HOST_SOURCE))
@@ -104,7 +116,8 @@ def fresh_folder(name: str) -> Path:
 def _private_environment(folder: Path) -> dict[str, str]:
     """An environment in which neither a user's settings nor leftovers of other runs are seen."""
     user = folder / "user"
-    user.mkdir(exist_ok=True)
+    # An add-on of Blender's expects that its parent folder exists.
+    (user / ".config" / "blender").mkdir(parents=True, exist_ok=True)
     return os.environ | {
         "BLENDER_USER_CONFIG": str(user),
         "BLENDER_USER_SCRIPTS": str(user),
@@ -173,7 +186,8 @@ def run_inside(
     `screen` gives OpenGL to a Blender without window; `window` opens Blender's window on it. A
     script that ends with an error, or without a report, is an AssertionError with its last lines.
     """
-    report = folder / f"{script}.{blender.parent.name}.json"
+    folder.mkdir(parents=True, exist_ok=True)
+    report = folder / f"{script}.json"
     report.unlink(missing_ok=True)
     ended = run(
         blender,

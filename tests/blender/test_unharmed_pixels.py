@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import unittest
+from pathlib import Path
 
 import host
 import numpy as np
@@ -15,22 +16,19 @@ class UnharmedPixels(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.folder = host.fresh_folder("unharmed_pixels")
 
-    def render(self, role: str, scene: str) -> tuple[np.ndarray, np.ndarray]:
-        """Render a scene in one of the Blenders; the PNG's and the EXR's pixels."""
-        blender = {"built": host.built_blender, "stock": host.stock_blender}[role]()
-        png, exr = (self.folder / f"{scene}.{role}.{suffix}" for suffix in ("png", "exr"))
-        host.run_inside(
-            blender,
-            "render_scene",
-            {"scene": scene, "png": str(png), "exr": str(exr)},
-            folder=self.folder,
-            seconds=120,
-        )
-        return pixels.read(png), pixels.read(exr)
-
     def assert_same_pixels(self, scene: str) -> None:
-        stock_png, stock_exr = self.render("stock", scene)
-        built_png, built_exr = self.render("built", scene)
+        def render(role: str, blender: Path) -> tuple[np.ndarray, np.ndarray]:
+            png, exr = (self.folder / f"{scene}.{role}.{suffix}" for suffix in ("png", "exr"))
+            host.run_inside(
+                blender,
+                "render_scene",
+                {"scene": scene, "png": str(png), "exr": str(exr)},
+                folder=self.folder / role,
+                seconds=120,
+            )
+            return pixels.read(png), pixels.read(exr)
+
+        (stock_png, stock_exr), (built_png, built_exr) = host.in_both(render)
         # A picture of nothing would be the same everywhere.
         self.assertGreater(float(np.ptp(stock_png)), 0.3, "the scene shows nothing")
         np.testing.assert_array_equal(built_png, stock_png)
