@@ -28,8 +28,10 @@ def wafer_material(name: str = "Wafer") -> tuple[bpy.types.Material, bpy.types.S
 def add_plane(material: bpy.types.Material, size: float = 40.0) -> bpy.types.Object:
     """A square in the plane z = 0 around the origin."""
     bpy.ops.mesh.primitive_plane_add(size=size)
-    bpy.context.object.data.materials.append(material)
-    return bpy.context.object
+    # Unlike bpy.context.object, this is there without a window in the context, in a timer too.
+    plane = bpy.context.view_layer.objects.active
+    plane.data.materials.append(material)
+    return plane
 
 
 def add_lamp(location: tuple[float, float, float], energy_w: float = 30.0) -> bpy.types.Object:
@@ -50,7 +52,8 @@ def add_camera(
     """The scene's camera; `axes` point to the right, to the top and forward (as if looking down)."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     right, top, forward = map(Vector, axes)
-    camera.matrix_world = Matrix.Translation(location) @ Matrix((right, top, -forward)).transposed().to_4x4()
+    turn = Matrix((right, top, -forward)).transposed()
+    camera.matrix_world = Matrix.Translation(location) @ turn.to_4x4()
     bpy.context.collection.objects.link(camera)
     bpy.context.scene.camera = camera
     return camera.data
