@@ -14,8 +14,11 @@ def read(path: Path) -> np.ndarray:
 
     Row 0 is the top. AssertionError when the file cannot be read.
     """
-    buffer = oiio.ImageBuf(str(path))
-    pixels = buffer.get_pixels(oiio.FLOAT)
-    if buffer.has_error or pixels is None:
-        raise AssertionError(f"{path} cannot be read: {buffer.geterror()}")
-    return np.asarray(pixels)[:, :, :3]
+    # Not ImageBuf: that remembers files by name, and shows an old one when it was written again.
+    file = oiio.ImageInput.open(str(path))
+    if file is None:
+        raise AssertionError(f"{path} cannot be read: {oiio.geterror()}")
+    try:
+        return np.asarray(file.read_image(format=oiio.FLOAT))[:, :, :3]
+    finally:
+        file.close()

@@ -8,6 +8,7 @@ import unittest
 from dataclasses import asdict, replace
 from pathlib import Path
 
+import cycles_xml
 import dispersion
 import host
 import numpy as np
@@ -81,6 +82,22 @@ class GratingLaw(unittest.TestCase):
         for mount in MOUNTS:
             with self.subTest(mount.name):
                 self.assert_peaks_where_predicted(mount, pixels.read(self.picture_path(mount)))
+
+    def test_standalone_cycles(self) -> None:
+        for mount in MOUNTS:
+            with self.subTest(mount.name):
+                xml = self.picture_path(mount).with_suffix(".xml")
+                exr = self.picture_path(mount).with_suffix(".standalone.exr")
+                xml.write_text(cycles_xml.scene(mount))
+                size = ("--width", str(mount.size_px), "--height", str(mount.size_px))
+                ended = host.run(
+                    host.built_cycles(),
+                    *("--background", "--quiet", "--samples", "16", *size, "--output", exr, xml),
+                    folder=self.folder,
+                    seconds=60,
+                )
+                self.assertTrue(exr.exists(), ended.tail())
+                self.assert_peaks_where_predicted(mount, pixels.read(exr))
 
     def test_a_slight_error_would_show(self) -> None:
         """2 % in the spacing, or 2 degrees in the wires' direction, move a peak by over a pixel."""
