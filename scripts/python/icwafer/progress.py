@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import selectors
@@ -124,12 +125,13 @@ def run(
             raise IcwaferError(
                 f"{title}: the program {command[0]} is missing; see scripts/icwafer doctor"
             ) from None
-        try:
-            _follow(process, progress, output, file)
-        except BaseException:
-            _stop(process)
-            progress.end("stopped")
-            raise
+        with process:
+            try:
+                _follow(process, progress, output, file)
+            except BaseException:
+                _stop(process)
+                progress.end("stopped")
+                raise
     text = "".join(output)
     if process.returncode != 0:
         progress.end("failed")
@@ -164,12 +166,11 @@ def _follow(
 
 
 def _stop(process: subprocess.Popen[bytes]) -> None:
+    """Ends a command and all that it started; ninja and apt clean up when they are interrupted."""
     for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-        try:
+        with contextlib.suppress(ProcessLookupError, subprocess.TimeoutExpired):
             os.killpg(process.pid, sent)
             process.wait(timeout=10)
-            return
-        except subprocess.TimeoutExpired:
-            continue
-        except ProcessLookupError:
-            return
+            break
+    with contextlib.suppress(ProcessLookupError):  # children that ignore an interruption
+        os.killpg(process.pid, signal.SIGTERM)

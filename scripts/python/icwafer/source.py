@@ -90,9 +90,14 @@ def _copy(origin: Path, tree: Path) -> None:
     _log.info("Copying %s", origin)
     try:
         shutil.copytree(origin, staging, symlinks=True, ignore=shutil.ignore_patterns(".git"))
-    except (OSError, shutil.Error) as error:
+    except OSError as error:
         shutil.rmtree(staging, ignore_errors=True)
-        raise IcwaferError(f"{origin}: cannot be copied to {tree} ({error}); make room") from None
+        # copytree goes on after an error and raises the list of all: the first says enough.
+        reason = error.args[0][0][2] if isinstance(error, shutil.Error) else error
+        raise IcwaferError(
+            f"{origin}: cannot be copied to {tree} ({reason}); mend this and run the same command "
+            "again"
+        ) from None
     _replace_tree(staging, tree)
 
 
@@ -194,6 +199,7 @@ def _download(folder: Path) -> None:
     )  # fmt: skip
     text = "".join(f"{checksum}  {name}\n" for name, checksum in sums.items())
     (folder / SUMS).write_text(text, encoding="utf-8")
+    shutil.rmtree(folder / "apt")
 
 
 def newest_record(records: str, upstream: str) -> tuple[str, dict[str, str]]:
@@ -217,7 +223,7 @@ def _unpack(dsc: Path, tree: Path) -> None:
     try:
         progress.run(
             "Unpacking the source",
-            ["dpkg-source", "--no-check", "-x", dsc, staging],
+            ["dpkg-source", "--no-check", "--no-copy", "-x", dsc, staging],
             layout.LOGS / "source-unpack.log",
         )
         _expect_version(staging)
