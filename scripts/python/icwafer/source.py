@@ -211,7 +211,7 @@ def newest_record(records: str, upstream: str) -> tuple[str, dict[str, str]]:
     for stanza in records.split("\n\n"):
         found = re.search(r"^Version: (.+)$", stanza, re.MULTILINE)
         block = re.search(r"^Checksums-Sha256:\s*\n((?: .+\n?)+)", stanza, re.MULTILINE)
-        if found and block and re.fullmatch(rf"{re.escape(upstream)}\D.*", found[1]):
+        if found and block and re.fullmatch(rf"{re.escape(upstream)}[-+~].*", found[1]):
             version = found[1]
             words = [line.split() for line in block[1].splitlines()]
             sums = {name: checksum for checksum, _, name in words}
