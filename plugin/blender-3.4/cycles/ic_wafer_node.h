@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+
+/* The node IC Wafer BSDF in Cycles' scene, and its look-up table. */
+
+#pragma once
+
+#include "kernel/icwafer/node_inputs.h"
+#include "scene/shader_nodes.h"
+
+CCL_NAMESPACE_BEGIN
+
+enum ICWaferModel {
+  IC_WAFER_CS348B = 0,
+};
+
+class ICWaferBsdfNode : public BsdfNode {
+ public:
+  SHADER_NODE_CLASS(ICWaferBsdfNode)
+
+#define ICWAFER_MEMBER(identifier, ...) NODE_SOCKET_API(float, identifier)
+  ICWAFER_NODE_FLOATS(ICWAFER_MEMBER)
+#undef ICWAFER_MEMBER
+  NODE_SOCKET_API(float3, tangent)
+  NODE_SOCKET_API(ICWaferModel, model)
+  NODE_SOCKET_API(bool, use_wire_diffraction)
+  NODE_SOCKET_API(bool, use_grating)
+  NODE_SOCKET_API(bool, use_thin_film)
+};
+
+/* The working space's sensitivities, {red, green, blue} for each nanometre of the visible range:
+ * icwafer::colour_table for the rows of the matrix from XYZ. */
+vector<float> ic_wafer_sensitivities(const float3 xyz_to_r,
+                                     const float3 xyz_to_g,
+                                     const float3 xyz_to_b);
+
+CCL_NAMESPACE_END
