@@ -18,7 +18,12 @@ class Window(unittest.TestCase):
         cls.facts = host.run_inside(
             host.built_blender(),
             "window_shot",
-            {"png": str(png), "pause_s": 4.0},
+            {
+                "png": str(png),
+                "python": str(host.REPOSITORY / "scripts" / "python"),
+                "picture": "clustered_groups",
+                "pause_s": 4.0,
+            },
             folder=folder,
             seconds=120,
             window=True,

@@ -1,84 +1,88 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The node in the shader editor beside a rendered viewport: a picture of Blender's window.
+"""The node in the shader editor beside a rendered die: a picture of Blender's window.
 
-Parameters: `png`; `pause_s`, the time that the viewport gets to render.
+Parameters: `png`; `python`, the folder of the package icwafer; `picture`, one of its pictures;
+`pause_s`, the time that the viewport gets to render.
 """
 
 from __future__ import annotations
 
-import math
+import sys
 
 import bpy
 from exchange import parameters, report
-from wafer_scene import add_camera, add_lamp, empty_scene, wafer_material
+from wafer_scene import NODE
 from window import area_of, context_of, in_window
 
-WAFER_RADIUS_M = 1.0
+sys.path.insert(0, parameters()["python"])
+
+from icwafer.blender_scene import build  # noqa: E402
+from icwafer.pictures import PICTURES  # noqa: E402
 
 
-def build_scene() -> bpy.types.Material:
-    """A round wafer with a die pattern of two kinds of wires under three lamps."""
-    material, node = wafer_material("Wafer")
-    material.node_tree.nodes["Material Output"].location = (330.0, 0.0)
-    node.location = (0.0, 0.0)
-    material.node_tree.nodes.active = node
-    bpy.ops.mesh.primitive_circle_add(vertices=128, radius=WAFER_RADIUS_M, fill_type="NGON")
-    wafer = bpy.context.view_layer.objects.active
-    wafer.data.materials.append(material)
-    wafer.rotation_euler = (math.radians(-12.0), 0.0, math.radians(20.0))
-    for location, energy_w in (
-        ((0.5, 1.2, 1.6), 60.0),
-        ((-1.4, -0.3, 1.4), 50.0),
-        ((1.6, -0.9, 1.2), 40.0),
-    ):
-        add_lamp(location, energy_w)
-    add_camera((0.0, 0.0, 3.4)).lens = 50.0
-    return material
+def wafer_tree() -> bpy.types.NodeTree:
+    return bpy.data.materials["Wafer"].node_tree
 
 
-def prepare() -> None:
-    material = build_scene()
-    scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    scene.cycles.preview_samples = 32
-    scene.cycles.use_preview_denoising = False
-    scene.render.resolution_x = scene.render.resolution_y = 1000
+def wafer_node() -> bpy.types.ShaderNode:
+    return next(node for node in wafer_tree().nodes if node.bl_idname == NODE)
 
+
+def tidy_tree() -> None:
+    """Fold the nodes that feed the wafer, so that the editor has room for it in full size."""
+    node = wafer_node()
+    wafer_tree().nodes.active = node
+    sources = [n for n in wafer_tree().nodes if n.bl_idname == "ShaderNodeAttribute"]
+    for row, source in enumerate(sources):
+        source.hide = True
+        source.label = source.attribute_name
+        source.location = (node.location.x - 220.0, node.location.y - 150.0 - 45.0 * row)
+
+
+def arrange() -> None:
+    """Viewport to the left, shader editor to the right."""
+    tidy_tree()
     editor = area_of("VIEW_3D")
     with bpy.context.temp_override(**context_of(editor)):
-        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.45)
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
     editor.ui_type = "ShaderNodeTree"
-    editor.spaces.active.node_tree = material.node_tree
     editor.spaces.active.show_region_ui = False
-    view = area_of("VIEW_3D").spaces.active
+
+    area = area_of("VIEW_3D")
+    view = area.spaces.active
     view.shading.type = "RENDERED"
     view.overlay.show_overlays = False
     view.show_gizmo = False
     view.show_region_toolbar = False
     view.region_3d.view_perspective = "CAMERA"
-    # The frame fills the view.
+    # The camera's frame is the whole view.
+    render = bpy.context.scene.render
+    render.resolution_x, render.resolution_y = area.width, area.height
     view.region_3d.view_camera_zoom = 29.0
 
 
-def frame_node() -> None:
+def frame_nodes() -> None:
     with bpy.context.temp_override(**context_of(area_of("NODE_EDITOR"))):
         bpy.ops.node.view_all()
+
+
+def come_closer() -> None:
+    """View All leaves a wide margin around the nodes."""
+    with bpy.context.temp_override(**context_of(area_of("NODE_EDITOR"))):
+        for _ in range(5):
+            bpy.ops.view2d.zoom_in()
 
 
 def shoot() -> None:
     bpy.ops.screen.screenshot(filepath=parameters()["png"])
     context = context_of(area_of("NODE_EDITOR"))
-    region, window = context["region"], context["window"]
-    node = context["area"].spaces.active.node_tree.nodes.active
+    region, window, node = context["region"], context["window"], wafer_node()
     scale = bpy.context.preferences.system.ui_scale
-    corners = [
+    size = node.dimensions / scale
+    (left, top), (right, bottom) = (
         region.view2d.view_to_region(scale * x, scale * y, clip=False)
-        for x, y in (
-            (node.location.x, node.location.y),
-            (node.location.x + node.width, node.location.y - node.dimensions.y / scale),
-        )
-    ]
-    (left, top), (right, bottom) = corners
+        for x, y in (node.location, (node.location.x + size.x, node.location.y - size.y))
+    )
     report(
         {
             "window": [window.width, window.height],
@@ -88,5 +92,11 @@ def shoot() -> None:
     )
 
 
-empty_scene()
-in_window(prepare, frame_node, shoot, pause_s=parameters()["pause_s"])
+scene = build(PICTURES[parameters()["picture"]])
+# The shader editor shows the active object's material.
+bpy.context.view_layer.objects.active = scene.objects["Die"]
+# An upright view would show the die small.
+scene.camera.data.lens *= 1.7
+scene.cycles.preview_samples = 64
+scene.cycles.use_preview_denoising = False
+in_window(arrange, frame_nodes, come_closer, shoot, pause_s=parameters()["pause_s"])
