@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where the colours of a grating have to appear in a picture, from geometry and the CIE's data alone.
+"""Where a grating's colours have to appear in a picture, from geometry and the CIE's data alone.
 
 A lamp, small and bright, hangs over the plane z = 0, and a camera looks at it. For each pixel the
 directions from the plane's point to the lamp and to the camera give u = (w_i + w_o) . nu, nu the
@@ -61,7 +61,7 @@ def camera_axes(mount: Mount) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def points_on_plane(mount: Mount, column: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, ...]:
-    """The points of the plane seen at picture positions, and the unit vectors from them to the eye.
+    """The plane's points seen at picture positions, and unit vectors from them to the eye.
 
     Positions are in pixels, row 0 at the top, pixel centres at integers.
     """
@@ -153,7 +153,7 @@ class Peak:
 
 @cache
 def dispersion_line(mount: Mount, v: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Picture positions of deflection v, about a pixel apart or closer, and their u: column, row, u.
+    """Picture positions of deflection v, about a pixel apart or closer: columns, rows, and their u.
 
     Empty when the place with u = 0 on it is outside the picture.
     """
@@ -163,8 +163,8 @@ def dispersion_line(mount: Mount, v: float) -> tuple[np.ndarray, np.ndarray, np.
     sides = []
     for sign in (-1.0, 1.0):
         side = [centre]
-        # The lamps are about a metre away, so this is about half a pixel near the mirror direction.
-        step = sign * 0.5 * mount.view / mount.size_px / np.linalg.norm(mount.camera)
+        # Lamps are about a metre away, so this is about half a pixel near the mirror direction.
+        step = sign * 0.5 * mount.view / mount.size_px / float(np.linalg.norm(mount.camera))
         while _inside(mount, side[-1]):
             side.append(_solve(mount, len(side) * step, v, side[-1]))
         sides.append(side[:-1])
@@ -199,15 +199,19 @@ def peaks(mount: Mount, pixels: np.ndarray) -> list[Peak]:
         column, row, u = dispersion_line(mount, v)
         for order in (-2, -1, 1, 2):
             # Where all wavelengths of this order are that are not the next order's too.
-            first, last = sorted(order * wavelength / mount.spacing_nm for wavelength in (420, 690))
+            first, last = sorted(
+                order * wavelength / mount.spacing_nm for wavelength in (420, 690)
+            )
             if not u.size or first < u[0] or last > u[-1]:
                 continue
             band = (u > first) & (u < last)
             for c, channel in enumerate(("red", "green", "blue")):
                 profile = _bilinear(pixels[..., c], column[band], row[band])
                 middle = _middle_of_peak(profile)
-                place = [float(np.interp(middle, np.arange(profile.size), axis[band]))
-                         for axis in (column, row)]
+                place = [
+                    float(np.interp(middle, np.arange(profile.size), axis[band]))
+                    for axis in (column, row)
+                ]
                 found.append(Peak(channel, order, v, *place))
     return found
 

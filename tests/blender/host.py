@@ -39,7 +39,7 @@ class MissingProgram(AssertionError):
 
 @dataclass(frozen=True)
 class Run:
-    """How a program ended: its exit status (negative: killed by that signal) and all its output."""
+    """How a program ended: exit status (negative: killed by that signal) and all its output."""
 
     status: int
     output: str
@@ -87,7 +87,7 @@ def stock_blender() -> Path:
 
 
 def in_both(work: Callable[[str, Path], T]) -> tuple[T, T]:
-    """The results of `work(role, blender)` for the roles "stock" and "built", done side by side."""
+    """Results of `work(role, blender)` for the roles "stock" and "built", done side by side."""
     blenders = {"stock": stock_blender(), "built": built_blender()}
     with ThreadPoolExecutor(len(blenders)) as pool:
         stock, built = pool.map(work, blenders, blenders.values())
@@ -106,7 +106,7 @@ def host_source() -> Path:
 
 
 def fresh_folder(name: str) -> Path:
-    """An empty folder for a test's pictures and files; it stays, to be looked at after a failure."""
+    """An empty folder for a test's pictures and files; it stays, to be seen after a failure."""
     folder = REPOSITORY / "out" / "tests" / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)

@@ -50,6 +50,8 @@ def distance_px(one: Peak, other: Peak) -> float:
 
 
 class GratingLaw(unittest.TestCase):
+    folder: Path
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = host.fresh_folder("grating_law")
@@ -77,7 +79,11 @@ class GratingLaw(unittest.TestCase):
             for mount in MOUNTS
         ]
         host.run_inside(
-            host.built_blender(), "render_mounts", {"mounts": jobs}, folder=self.folder, seconds=300
+            host.built_blender(),
+            "render_mounts",
+            {"mounts": jobs},
+            folder=self.folder,
+            seconds=300,
         )
         for mount in MOUNTS:
             with self.subTest(mount.name):
@@ -100,7 +106,7 @@ class GratingLaw(unittest.TestCase):
                 self.assert_peaks_where_predicted(mount, pixels.read(exr))
 
     def test_a_slight_error_would_show(self) -> None:
-        """2 % in the spacing, or 2 degrees in the wires' direction, move a peak by over a pixel."""
+        """2 % in the spacing, or 2 degrees in the wires' direction, move peaks by over a pixel."""
         for mount in MOUNTS:
             expected = dispersion.peaks(mount, dispersion.picture(mount))
             for wrong in (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The node in the built Blender, as an artist meets it: menu, sockets, files, undo, every engine."""
+"""The node in the built Blender, as an artist meets it: menu, sockets, files, undo, engines."""
 
 from __future__ import annotations
 
@@ -54,6 +54,8 @@ OTHER_VALUES: dict[str, Any] = {
 
 class TestCase(unittest.TestCase):
     """Renders end in a folder of the test's own."""
+
+    folder: Path
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -211,7 +213,7 @@ class Renders(TestCase):
         self.assertGreater(float(np.median(saturation)), 0.3)
 
     def test_every_input_acts_and_links(self) -> None:
-        """A changed value changes the picture, and the same value through a link gives the same."""
+        """Another value changes the picture, and the same value through a link does the same."""
         variants: dict[str, dict[str, Any]] = {"default": {}}
         for name, value in OTHER_VALUES.items():
             variants[f"{name} linked"] = {"inputs": {name: value}, "linked": [name]}
@@ -235,7 +237,7 @@ class Renders(TestCase):
                 self.assertGreater(float(change), 0.02, "switching it off changed nothing")
 
     def test_other_engines(self) -> None:
-        """EEVEE and Workbench: a glossy stand-in, with everything linked and with nothing linked."""
+        """EEVEE and Workbench: a glossy stand-in, with everything linked and nothing linked."""
         everything = {"inputs": OTHER_VALUES, "linked": list(OTHER_VALUES)}
         switched = {"properties": dict.fromkeys(EFFECTS, False)}
         for engine in ("BLENDER_EEVEE", "BLENDER_WORKBENCH"):
@@ -251,7 +253,9 @@ class Extremes(TestCase):
     SIDE = 64
     ABSURD = (0.0, -1.0, 1e-30, 1e-6, 1.0, 1e9, -1e9, 3e38, math.inf, -math.inf, math.nan)
 
-    def picture(self, name: str, inputs: dict[str, float], attributes: dict[str, Any]) -> np.ndarray:
+    def picture(
+        self, name: str, inputs: dict[str, float], attributes: dict[str, Any]
+    ) -> np.ndarray:
         exr = self.folder / f"{name}.exr"
         given = {"side": self.SIDE, "inputs": inputs, "attributes": attributes, "exr": str(exr)}
         self.inside("render_extremes", given)

@@ -12,6 +12,8 @@ import pixels
 
 
 class UnharmedPixels(unittest.TestCase):
+    folder: Path
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = host.fresh_folder("unharmed_pixels")

@@ -59,6 +59,9 @@ def installation_folders(blender: Path) -> tuple[str, ...]:
 
 
 class UnharmedPython(unittest.TestCase):
+    folder: Path
+    tests: Path
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = host.fresh_folder("unharmed_python")

@@ -11,6 +11,9 @@ import pixels
 
 
 class Window(unittest.TestCase):
+    facts: dict[str, list[float]]
+    shot: np.ndarray
+
     @classmethod
     def setUpClass(cls) -> None:
         folder = host.fresh_folder("window")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How a script inside Blender gets its parameters from a test and answers (see `host.run_inside`)."""
+"""How a script inside Blender gets parameters from a test and answers (see `host.run_inside`)."""
 
 from __future__ import annotations
 

@@ -43,7 +43,9 @@ report(
         "description": type(node).bl_rna.description,
         "inputs": [describe_socket(s) for s in node.inputs if not s.is_unavailable],
         "outputs": [(s.name, s.type) for s in node.outputs],
-        "properties": {name: describe_property(type(node).bl_rna.properties[name]) for name in own},
+        "properties": {
+            name: describe_property(type(node).bl_rna.properties[name]) for name in own
+        },
         "values": {name: getattr(node, name) for name in own},
         "menu": menu_entries(),
         "help": WM_OT_doc_view_manual._lookup_rna_url(f"bpy.types.{NODE}.{next(iter(own))}"),

@@ -49,7 +49,7 @@ def add_camera(
     location: tuple[float, float, float],
     axes: tuple[tuple[float, float, float], ...] = ((1, 0, 0), (0, 1, 0), (0, 0, -1)),
 ) -> bpy.types.Camera:
-    """The scene's camera; `axes` point to the right, to the top and forward (as if looking down)."""
+    """The scene's camera; `axes` point right, to the top and forward (here: looking down)."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     right, top, forward = map(Vector, axes)
     turn = Matrix((right, top, -forward)).transposed()
