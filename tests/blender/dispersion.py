@@ -153,7 +153,7 @@ class Peak:
 
 @cache
 def dispersion_line(mount: Mount, v: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Picture positions of deflection v, about a pixel apart or closer: columns, rows, and their u.
+    """Picture positions of deflection v, about a pixel apart or closer: columns, rows, u.
 
     Empty when the place with u = 0 on it is outside the picture.
     """

@@ -85,6 +85,8 @@ class TestCase(unittest.TestCase):
 class Facts(TestCase):
     """Names, sockets, menu and help."""
 
+    facts: dict[str, Any]
+
     @classmethod
     def setUpClass(cls) -> None:
         super().setUpClass()
@@ -160,6 +162,9 @@ class Files(TestCase):
 class Window(TestCase):
     """Work in the shader editor, and what the viewport shows."""
 
+    png: dict[str, Path]
+    facts: dict[str, Any]
+
     @classmethod
     def setUpClass(cls) -> None:
         super().setUpClass()
@@ -230,7 +235,9 @@ class Renders(TestCase):
                     np.testing.assert_allclose(linked, pictures[name], rtol=1e-5, atol=1e-6)
 
     def test_every_effect_acts(self) -> None:
-        pictures = self.render({"all": {}} | {e: {"properties": {e: False}} for e in EFFECTS})
+        variants: dict[str, dict[str, Any]] = {"all": {}}
+        variants |= {effect: {"properties": {effect: False}} for effect in EFFECTS}
+        pictures = self.render(variants)
         for effect in EFFECTS:
             with self.subTest(effect):
                 change = np.abs(pictures[effect] - pictures["all"]).mean() / pictures["all"].mean()
