@@ -14,7 +14,7 @@ import numpy as np
 import pixels
 
 # Name, type and default of each input, in order.
-INPUTS = (
+INPUTS: tuple[tuple[str, str, Any], ...] = (
     ("Color", "RGBA", [1.0, 1.0, 1.0, 1.0]),
     ("Wire Spacing", "VALUE", 1000.0),
     ("Wire Width", "VALUE", 250.0),

@@ -35,7 +35,7 @@ class Window(unittest.TestCase):
 
     def part(self, rectangle: list[float]) -> np.ndarray:
         """The pixels in left, bottom, right, top, counted from the window's lower left corner."""
-        left, bottom, right, top = map(round, rectangle)
+        left, bottom, right, top = (round(edge) for edge in rectangle)
         height = self.shot.shape[0]
         return self.shot[height - top : height - bottom, left:right]
 
