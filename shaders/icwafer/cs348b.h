@@ -99,7 +99,7 @@ struct Cs348bFactor {
   float slit_phase_nm, film_phase_nm;
   bool film;
 
-  ICW_DEVICE float operator()(const float wavelength_nm, const FringeAverage average) const
+  ICW_DEVICE_METHOD float operator()(const float wavelength_nm, const FringeAverage average) const
   {
     const float per_nm = 1.0f / wavelength_nm;
     const float a = slit_phase_nm * per_nm;

@@ -92,13 +92,13 @@ ICW_DEVICE Lobe hump_lobe(const Cs348bParams &p,
                           const int hump,
                           const float power)
 {
-  const float mean_nm = hump == 0 ? 452.0f : 572.0f;
+  const float hump_nm = hump == 0 ? 452.0f : 572.0f;
   const float sigma_nm = hump == 0 ? 24.0f : 48.0f;
   const float weight = hump == 0 ? 0.34f : 0.66f;
   const float per_nm = float(order) / p.spacing_nm;
-  return lobe_of(mean_nm * per_nm,
+  return lobe_of(hump_nm * per_nm,
                  sqrtf(square(p.lobe_width) + square(sigma_nm * per_nm)),
-                 weight * mean_nm / (pi * p.spacing_nm) * power);
+                 weight * hump_nm / (pi * p.spacing_nm) * power);
 }
 
 /* Order 0; without a grating, the central peak of the wire's own diffraction. */

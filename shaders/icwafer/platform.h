@@ -7,11 +7,11 @@
 
 #ifdef ccl_device_inline
 #  define ICW_DEVICE ccl_device_inline
-#  define ICW_DEVICE_NOINLINE ccl_device_noinline
+#  define ICW_DEVICE_METHOD ccl_device_inline_method
 #else
 #  include <cmath>
 #  define ICW_DEVICE inline
-#  define ICW_DEVICE_NOINLINE inline
+#  define ICW_DEVICE_METHOD inline
 #endif
 
 namespace icwafer {

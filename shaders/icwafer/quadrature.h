@@ -43,7 +43,7 @@ constexpr float gaussian_bandwidth = 4.2f;
 constexpr float lobe_reach = 3.5f;
 constexpr float lobe_inside = 0.999535f;
 /* Fringes average out over the sensitivities too, as over a lobe of this width. */
-constexpr float sensitivity_sigma_nm = 15.0f;
+constexpr float sensitivity_sigma_nm = 9.0f;
 
 /* Step that resolves a lobe or the sensitivities, whichever is narrower, and fringes. */
 ICW_DEVICE float step_nm(const float sigma_nm, const float fringes_per_nm)
@@ -79,7 +79,8 @@ ICW_DEVICE float resolved_per_nm(const Fringes fringes, const FringeAverage aver
   return (average.film ? 0.0f : fringes.film_per_nm) + (average.slit ? 0.0f : fringes.slit_per_nm);
 }
 
-/* Sum of lobes(lambda) F(lambda) S(lambda) over the visible range. */
+/* Mean of lobes(lambda) F(lambda) over the visible range with the weights S(lambda). Dividing by
+ * the sum of the weights makes a flat spectrum exactly white at any step. */
 template<typename Lobes, typename Factor, typename Sensitivity>
 ICW_DEVICE Rgb grid_integral(const float step,
                              const FringeAverage average,
@@ -88,10 +89,13 @@ ICW_DEVICE Rgb grid_integral(const float step,
                              const Sensitivity &sensitivity)
 {
   Rgb sum = {0.0f, 0.0f, 0.0f};
+  Rgb weight = {0.0f, 0.0f, 0.0f};
   for (float wavelength = first_nm + 0.5f * step; wavelength < last_nm; wavelength += step) {
-    sum = sum + lobes(wavelength) * factor(wavelength, average) * sensitivity(wavelength);
+    const Rgb s = sensitivity(wavelength);
+    sum = sum + lobes(wavelength) * factor(wavelength, average) * s;
+    weight = weight + s;
   }
-  return step * sum;
+  return {sum.r / weight.r, sum.g / weight.g, sum.b / weight.b};
 }
 
 /* One order: a Gaussian around centre_nm, times lambda / m. */
