@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+#
+# Compiles several sources of a library as one: most of a C++ file's time goes into headers that its
+# neighbours need too. Blender does so itself for its nodes; these are further libraries in which it
+# saves most. Read by Blender's own project(), as CMAKE_PROJECT_Blender_INCLUDE.
+
+set(ICWAFER_UNITY_TARGETS
+  bf_compositor
+  bf_depsgraph
+  bf_freestyle
+  bf_intern_cycles
+  bf_realtime_compositor
+  cycles_bvh
+  cycles_device
+  cycles_integrator
+  cycles_scene
+  cycles_subd
+)
+
+# Sources that do not get along with others: OpenVDB's headers clash with a macro of Cycles, and
+# Freestyle's Python bindings repeat each other's names.
+set(ICWAFER_UNITY_EXCEPT "(/python/.*|image|image_vdb|object|volume)\\.cpp$")
+
+function(icwafer_use_unity)
+  foreach(target IN LISTS ICWAFER_UNITY_TARGETS)
+    if(TARGET ${target})
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+      get_target_property(sources ${target} SOURCES)
+      list(FILTER sources INCLUDE REGEX ${ICWAFER_UNITY_EXCEPT})
+      if(sources)
+        set_source_files_properties(${sources} TARGET_DIRECTORY ${target}
+          PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+        )
+      endif()
+    endif()
+  endforeach()
+endfunction()
+# Once all targets are there.
+cmake_language(DEFER CALL icwafer_use_unity)
