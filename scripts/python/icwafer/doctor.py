@@ -93,7 +93,8 @@ def check_program(subject: str, built: Path, installed: Path, target: str) -> Fi
         return Finding(subject, "half built" if started else "not built yet", mend)
     if not installed.is_file():
         return Finding(subject, "built, but not installed", mend)
-    if installed.stat().st_mtime < built.stat().st_mtime:
+    # An installed file has its time in whole seconds.
+    if installed.stat().st_mtime < int(built.stat().st_mtime):
         return Finding(subject, f"{installed} is older than the build", mend)
     return Finding(subject, str(installed))
 
