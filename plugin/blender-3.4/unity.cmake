@@ -19,7 +19,7 @@ set(ICWAFER_UNITY_TARGETS
 
 # Sources that do not get along with others: OpenVDB's headers clash with a macro of Cycles, and
 # Freestyle's Python bindings repeat each other's names.
-set(ICWAFER_UNITY_EXCEPT "(/python/.*|image|image_vdb|object|volume)\\.cpp$")
+set(ICWAFER_UNITY_EXCEPT "(/python/.*|image|image_vdb|object|shader|volume)\\.cpp$")
 
 function(icwafer_use_unity)
   foreach(target IN LISTS ICWAFER_UNITY_TARGETS)

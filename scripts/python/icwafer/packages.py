@@ -18,11 +18,13 @@ _log = logging.getLogger(__name__)
 #: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests with Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
-    "core": ("libbenchmark-dev", "libgmock-dev", "libgtest-dev", "python3-pyopencolorio"),
+    "core": (
+        "libbenchmark-dev", "libboost-dev", "libgmock-dev", "libgtest-dev", "python3-pyopencolorio"
+    ),
     "host": tuple(
         """
         ccache dpkg-dev gettext libavcodec-dev libavdevice-dev libavfilter-dev libavformat-dev
-        libblosc-dev libboost-dev libboost-filesystem-dev libboost-iostreams-dev
+        libblosc-dev libboost-filesystem-dev libboost-iostreams-dev
         libboost-locale-dev libboost-regex-dev libboost-system-dev libboost-thread-dev
         libembree-dev libepoxy-dev libfftw3-dev libfontconfig-dev libfreetype-dev libglew-dev
         libgmp-dev libhpdf-dev libjemalloc-dev libjpeg-dev liblzma-dev liblzo2-dev
