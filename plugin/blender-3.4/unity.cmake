@@ -6,7 +6,6 @@
 
 set(ICWAFER_UNITY_TARGETS
   bf_compositor
-  bf_depsgraph
   bf_freestyle
   bf_intern_cycles
   bf_realtime_compositor
@@ -19,20 +18,23 @@ set(ICWAFER_UNITY_TARGETS
 
 # Sources that do not get along with others: OpenVDB's headers clash with a macro of Cycles, and
 # Freestyle's Python bindings repeat each other's names.
-set(ICWAFER_UNITY_EXCEPT "(/python/.*|image|image_vdb|object|shader|volume)\\.cpp$")
+set(ICWAFER_UNITY_EXCEPT "(/python/.*|image|image_vdb|object|volume)\\.cpp$")
 
 function(icwafer_use_unity)
   foreach(target IN LISTS ICWAFER_UNITY_TARGETS)
-    if(TARGET ${target})
-      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-      get_target_property(sources ${target} SOURCES)
-      list(FILTER sources INCLUDE REGEX ${ICWAFER_UNITY_EXCEPT})
-      if(sources)
-        set_source_files_properties(${sources} TARGET_DIRECTORY ${target}
-          PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
-        )
-      endif()
+    if(NOT TARGET ${target})
+      continue()
     endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    get_target_property(sources ${target} SOURCES)
+    get_target_property(folder ${target} SOURCE_DIR)
+    list(FILTER sources INCLUDE REGEX ${ICWAFER_UNITY_EXCEPT})
+    foreach(source IN LISTS sources)
+      cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target}
+        PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+      )
+    endforeach()
   endforeach()
 endfunction()
 # Once all targets are there.

@@ -19,7 +19,8 @@ _log = logging.getLogger(__name__)
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
-        "libbenchmark-dev", "libboost-dev", "libgmock-dev", "libgtest-dev", "python3-pyopencolorio"
+        "libbenchmark-dev", "libboost-dev", "libgmock-dev", "libgtest-dev",
+        "python3-pyopencolorio",
     ),
     "host": tuple(
         """
@@ -35,11 +36,9 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         pkg-config python3-dev python3-requests
         """.split()
     ),
-    "full": tuple(
-        """
-        libalut-dev libgettextpo-dev libgsm1-dev libjack-dev libopenal-dev libsdl2-dev
-        libsndfile1-dev libspnav-dev opencollada-dev
-        """.split()
+    "full": (
+        "libjack-dev", "libopenal-dev", "libsdl2-dev", "libsndfile1-dev", "libspnav-dev",
+        "opencollada-dev",
     ),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }

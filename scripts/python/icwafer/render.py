@@ -13,7 +13,10 @@ _log = logging.getLogger(__name__)
 
 SCRIPT = Path(__file__).with_name("render_picture.py")
 #: Files of the package that a picture depends on, besides Blender itself.
-INPUTS = (SCRIPT, SCRIPT.with_name("pictures.py"), SCRIPT.with_name("die.py"))
+INPUTS = tuple(
+    SCRIPT.with_name(name)
+    for name in ("blender_scene.py", "die.py", "floorplan.py", "pictures.py", SCRIPT.name)
+)
 
 
 def expect_blender() -> None:
