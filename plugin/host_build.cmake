@@ -4,11 +4,12 @@
 # compilation, each only as far as something changed. `cmake --install` makes the folder that runs
 # from anywhere on the machine.
 #
-# The host's folders stand at fixed places below build/, the same in every clone, so that a compiler
-# cache serves them all.
+# The host's folders stand at fixed places below build/, the same in every clone, so that a
+# compiler cache serves them all.
 
 option(ICWAFER_FULL
-  "Blender with everything that Debian's package has, motion tracking and audio devices included" OFF
+  "Blender with everything that Debian's package has, motion tracking and audio devices included"
+  OFF
 )
 set(ICWAFER_BLENDER_SOURCE "" CACHE PATH
   "Source tree of the same Blender version, used (as a copy) instead of Debian's source package"

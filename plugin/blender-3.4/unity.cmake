@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# Compiles several sources of a library as one: most of a C++ file's time goes into headers that its
-# neighbours need too. Blender does so itself for its nodes; these are further libraries in which it
-# saves most. Read by Blender's own project(), as CMAKE_PROJECT_Blender_INCLUDE.
+# Compiles several sources of a library as one: most of a C++ file's time goes into headers that
+# its neighbours need too. Blender does so itself for its nodes; these are further libraries in
+# which it saves most. Read by Blender's own project(), as CMAKE_PROJECT_Blender_INCLUDE.
 
 set(ICWAFER_UNITY_TARGETS
   bf_compositor

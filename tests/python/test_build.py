@@ -77,11 +77,16 @@ class BuildTest(CommandCase):
     def test_a_failed_step_is_the_last(self) -> None:
         self.fake_program(
             "cmake",
-            f'echo "$*" >> {self.asked}; case "$*" in *--build*) echo "x.cc:1: error: bad"; exit 1; esac',
+            f'echo "$*" >> {self.asked}\n'
+            'case "$*" in *--build*) echo "x.cc:1: error: bad"; exit 1; esac',
         )
         source = f"-DICWAFER_BLENDER_SOURCE={self.tree}"
         self.expect_error(
-            ["build", "cycles", source], 1, "x.cc:1: error: bad", "cycles-build.log", "same command"
+            ["build", "cycles", source],
+            1,
+            "x.cc:1: error: bad",
+            "cycles-build.log",
+            "same command",
         )
         self.assertEqual(len(self.steps()), 2)
 

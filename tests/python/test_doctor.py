@@ -27,7 +27,9 @@ class DoctorTest(CommandCase):
         self.expect(doctor.check_system(), "Python", "")
 
     def test_packages(self) -> None:
-        self.replace(packages, PURPOSES={"test": ("cmake", "xvfb")}, missing=lambda names: ["xvfb"])
+        self.replace(
+            packages, PURPOSES={"test": ("cmake", "xvfb")}, missing=lambda names: ["xvfb"]
+        )
         self.expect(
             doctor.check_packages("packages", "test"),
             "1 Debian packages are missing",

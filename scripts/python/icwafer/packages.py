@@ -15,11 +15,15 @@ from icwafer.errors import IcwaferError
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests with Blender.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests that start
+#: Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
-        "libbenchmark-dev", "libboost-dev", "libgmock-dev", "libgtest-dev",
+        "libbenchmark-dev",
+        "libboost-dev",
+        "libgmock-dev",
+        "libgtest-dev",
         "python3-pyopencolorio",
     ),
     "host": tuple(
@@ -37,7 +41,11 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         """.split()
     ),
     "full": (
-        "libjack-dev", "libopenal-dev", "libsdl2-dev", "libsndfile1-dev", "libspnav-dev",
+        "libjack-dev",
+        "libopenal-dev",
+        "libsdl2-dev",
+        "libsndfile1-dev",
+        "libspnav-dev",
         "opencollada-dev",
     ),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
@@ -89,7 +97,9 @@ def install(*purposes: str) -> None:
     _log.info("Installing through apt: %s", " ".join(absent))
     environment = {"DEBIAN_FRONTEND": "noninteractive", "LC_ALL": "C"}
     try:
-        progress.run("Package lists", [*apt, "update"], layout.LOGS / "apt-update.log", environment)
+        progress.run(
+            "Package lists", [*apt, "update"], layout.LOGS / "apt-update.log", environment
+        )
     except IcwaferError as error:  # another repository may be at fault: the installation decides
         _log.warning("%s", error)
     progress.run(

@@ -39,11 +39,22 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
     unfinished.parent.mkdir(parents=True, exist_ok=True)
     progress.run(
         f"Rendering {name}",
-        [layout.BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "-P", SCRIPT, "--",
-         name, "--output", unfinished],
+        [
+            layout.BLENDER,
+            "-b",
+            "--factory-startup",
+            "--python-exit-code",
+            "1",
+            "-P",
+            SCRIPT,
+            "--",
+            name,
+            "--output",
+            unfinished,
+        ],
         layout.LOGS / f"render-{name}.log",
         advice="scripts/icwafer doctor checks Blender",
-    )  # fmt: skip
+    )
     for path in finished:
         unfinished.with_suffix(path.suffix).replace(path)
     unfinished.parent.rmdir()
