@@ -6,6 +6,7 @@
 
 set(ICWAFER_UNITY_TARGETS
   bf_compositor
+  bf_depsgraph
   bf_freestyle
   bf_intern_cycles
   bf_realtime_compositor
@@ -16,9 +17,11 @@ set(ICWAFER_UNITY_TARGETS
   cycles_subd
 )
 
-# Sources that do not get along with others: OpenVDB's headers clash with a macro of Cycles, and
-# Freestyle's Python bindings repeat each other's names.
-set(ICWAFER_UNITY_EXCEPT "(/python/.*|image|image_vdb|object|volume)\\.cpp$")
+# Sources that do not get along with others: OpenVDB's headers clash with a macro of Cycles,
+# Freestyle's Python bindings repeat each other's names, and a comparison is declared too late.
+set(ICWAFER_UNITY_EXCEPT
+  "/python/.*\\.cpp$|(^|/)(image|image_vdb|object|volume)\\.cpp$|/deg_eval_runtime_backup.*\\.cc$"
+)
 
 function(icwafer_use_unity)
   foreach(target IN LISTS ICWAFER_UNITY_TARGETS)
