@@ -121,9 +121,8 @@ ICW_DEVICE Rgb cs348b_eval(const Cs348bParams &p,
   Cs348bFactor factor;
   factor.slit_phase_nm = p.effects & cs348b_wire_diffraction ? pi * p.width_nm * u : 0.0f;
   factor.film = p.effects & cs348b_thin_film;
-  factor.film_phase_nm = factor.film ?
-                             two_pi * cs348b_film_path_nm(p.optical_thickness_nm, g) :
-                             0.0f;
+  factor.film_phase_nm = factor.film ? two_pi * cs348b_film_path_nm(p.optical_thickness_nm, g) :
+                                       0.0f;
 
   /* d(phase / lambda) / d lambda at 420 nm, the shortest wavelength that matters to the eye;
    * sin^2 a goes through a fringe twice as fast as a. */
@@ -134,9 +133,8 @@ ICW_DEVICE Rgb cs348b_eval(const Cs348bParams &p,
   if (!(p.effects & cs348b_grating)) {
     return scale * smooth_integral(fringes, factor, sensitivity);
   }
-  return scale *
-         grating_integral(
-             u * p.spacing_nm, p.lobe_width * p.spacing_nm, fringes, factor, sensitivity);
+  return scale * grating_integral(
+                     u * p.spacing_nm, p.lobe_width * p.spacing_nm, fringes, factor, sensitivity);
 }
 
 }  // namespace icwafer

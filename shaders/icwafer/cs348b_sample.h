@@ -151,7 +151,10 @@ ICW_DEVICE float anisotropy_integral(const float x, const float exponent)
 }
 
 /* Density of t given s. */
-ICW_DEVICE float along_pdf(const float exponent, const float view_v, const float half, const float v)
+ICW_DEVICE float along_pdf(const float exponent,
+                           const float view_v,
+                           const float half,
+                           const float v)
 {
   const float integral = anisotropy_integral(view_v + half, exponent) -
                          anisotropy_integral(view_v - half, exponent);
@@ -166,8 +169,7 @@ ICW_DEVICE float cs348b_total_power(const Cs348bParams &p, const float view_u)
 {
   using namespace cs348b_detail;
   const Lobe central = central_lobe(p);
-  float total = even_power(p, view_u) +
-                central.power * lobe_mass(lobe_interval(central, view_u));
+  float total = even_power(p, view_u) + central.power * lobe_mass(lobe_interval(central, view_u));
   const int last = order_reach(p, 1.0f + view_u);
   for (int order = -order_reach(p, 1.0f - view_u); order <= last; order++) {
     if (order != 0) {

@@ -49,8 +49,7 @@ constexpr float sensitivity_sigma_nm = 9.0f;
 ICW_DEVICE float step_nm(const float sigma_nm, const float fringes_per_nm)
 {
   const float lobe = gaussian_bandwidth / sigma_nm;
-  return two_pi /
-         (fringes_per_nm + (lobe > sensitivity_bandwidth ? lobe : sensitivity_bandwidth));
+  return two_pi / (fringes_per_nm + (lobe > sensitivity_bandwidth ? lobe : sensitivity_bandwidth));
 }
 
 }  // namespace quadrature_detail
@@ -196,8 +195,7 @@ ICW_DEVICE Rgb grating_integral(const float ud_nm,
   const float step = step_nm(order_last > 0 ? sigma_least_nm : last_nm,
                              resolved_per_nm(fringes, average));
   const float window_nm = fminf(2.0f * lobe_reach * sigma_least_nm, last_nm - first_nm) + step;
-  if (order_first <= 0 ||
-      float(order_last - order_first + 1) * window_nm > last_nm - first_nm) {
+  if (order_first <= 0 || float(order_last - order_first + 1) * window_nm > last_nm - first_nm) {
     return grid_integral(
         step,
         average,

@@ -81,5 +81,3 @@ BENCHMARK(setup_and_sample)->Apply(arguments);
 BENCHMARK(brute_force)->Apply(arguments);
 
 }  // namespace icwafer::test
-
-

@@ -96,8 +96,7 @@ TEST(Cs348b, AgreesWithReferenceAtRandom)
  * 550 nm only, the power over u has its mean there, to 1e-6. */
 TEST(Cs348b, DirectionLawIsExact)
 {
-  const Cs348bParams p = cs348b_params(
-      2000.0f, 500.0f, 0.0f, 1.5f, 1e-4f, 0.0f, cs348b_grating);
+  const Cs348bParams p = cs348b_params(2000.0f, 500.0f, 0.0f, 1.5f, 1e-4f, 0.0f, cs348b_grating);
   const LocalDirection i = direction(0.0f, std::sqrt(0.75f));
   for (int order = 1; order <= 3; order++) {
     const double expected = order * 550.0 / 2000.0;
@@ -138,8 +137,7 @@ TEST(Cs348b, BrightestDirectionFollowsTheLaw)
       double sum = 0.0, first = 0.0;
       for (float u = expected - 0.04f; u < expected + 0.04f; u += 1e-4f) {
         const LocalDirection i = direction(0.3f, 0.5f);
-        const Rgb f = cs348b_eval(
-            p, grating_geometry(i, direction(u - i.nu, -i.tau)), line);
+        const Rgb f = cs348b_eval(p, grating_geometry(i, direction(u - i.nu, -i.tau)), line);
         sum += f.g;
         first += f.g * u;
       }
@@ -210,8 +208,7 @@ TEST(Cs348b, EffectsSwitchOffAlone)
 TEST(Cs348b, AnisotropyIsAPowerOfV)
 {
   const GratingGeometry g = grating_geometry(direction(0.3f, 0.2f), direction(0.25f, 0.3f));
-  Cs348bParams p = cs348b_params(
-      1000.0f, 250.0f, 530.0f, 1.544f, 0.02f, 0.0f, cs348b_all_effects);
+  Cs348bParams p = cs348b_params(1000.0f, 250.0f, 530.0f, 1.544f, 0.02f, 0.0f, cs348b_all_effects);
   const float without = cs348b_eval(p, g, sensitivity).g;
   p.anisotropy = 2.0f;
   EXPECT_NEAR(cs348b_eval(p, g, sensitivity).g, 0.25f * without, 1e-5f * without);

@@ -36,7 +36,8 @@ TEST_P(ChiSquared, SamplesFollowThePdf)
   const int bins_across = std::min(12000, int(std::ceil(2.0f / (p.lobe_width / 3.0f))));
   const auto bin_of = [&](const LocalDirection i) {
     const float half = std::sqrt(1.0f - i.nu * i.nu);
-    const int across = std::clamp(int(0.5f * (i.nu + 1.0f) * float(bins_across)), 0, bins_across - 1);
+    const int across = std::clamp(
+        int(0.5f * (i.nu + 1.0f) * float(bins_across)), 0, bins_across - 1);
     const int along = std::clamp(
         int(0.5f * (i.tau / half + 1.0f) * float(bins_along)), 0, bins_along - 1);
     return size_t(across * bins_along + along);
@@ -69,9 +70,9 @@ TEST_P(ChiSquared, SamplesFollowThePdf)
           const double t = half * (-1.0 + 2.0 * (b + nodes[y]) / parts);
           const LocalDirection i = direction(float(s), float(t));
           const double density = i.n > 0.0f ? cs348b_pdf(p, total, o, i) / double(i.n) : 0.0;
-          const double area = weights[x] * weights[y] * (2.0 / bins_across) *
-                              (2.0 * half / parts);
-          expected[size_t(a * bins_along + b * bins_along / parts)] += density * area * sample_count;
+          const double area = weights[x] * weights[y] * (2.0 / bins_across) * (2.0 * half / parts);
+          expected[size_t(a * bins_along + b * bins_along / parts)] += density * area *
+                                                                       sample_count;
           integral += density * area;
         }
       }

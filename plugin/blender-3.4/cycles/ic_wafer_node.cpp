@@ -54,14 +54,10 @@ void ICWaferBsdfNode::compile(SVMCompiler &compiler)
   const int tangent_offset = compiler.stack_assign_if_linked(input("Tangent"));
   const int spacing_offset = offset("Wire Spacing");
   const int width_offset = offset("Wire Width");
-  const uint film_offsets = compiler.encode_uchar4(offset("Oxide Thickness"),
-                                                   offset("Oxide IOR"),
-                                                   offset("Direction"),
-                                                   offset("Diffraction"));
-  const uint lobe_offsets = compiler.encode_uchar4(offset("Specular"),
-                                                   offset("Specular Roughness"),
-                                                   offset("Diffuse"),
-                                                   offset("Lobe Width"));
+  const uint film_offsets = compiler.encode_uchar4(
+      offset("Oxide Thickness"), offset("Oxide IOR"), offset("Direction"), offset("Diffraction"));
+  const uint lobe_offsets = compiler.encode_uchar4(
+      offset("Specular"), offset("Specular Roughness"), offset("Diffuse"), offset("Lobe Width"));
   const int anisotropy_offset = offset("Anisotropy");
   const int effects = (use_wire_diffraction ? icwafer::cs348b_wire_diffraction : 0) |
                       (use_grating ? icwafer::cs348b_grating : 0) |
