@@ -19,8 +19,12 @@ set(ICWAFER_UNITY_TARGETS
 
 # Sources that do not get along with others: OpenVDB's headers clash with a macro of Cycles,
 # Freestyle's Python bindings repeat each other's names, and a comparison is declared too late.
+# And those that include headers of ours, so that a change of one compiles little else.
 set(ICWAFER_UNITY_EXCEPT
-  "/python/.*\\.cpp$|(^|/)(image|image_vdb|object|volume)\\.cpp$|/deg_eval_runtime_backup.*\\.cc$"
+  "/python/.*\\.cpp$"
+  "(^|/)(image|image_vdb|object|volume)\\.cpp$"
+  "/deg_eval_runtime_backup.*\\.cc$"
+  "(^|/)(ic_wafer_node|shader)\\.cpp$"
 )
 
 function(icwafer_use_unity)
@@ -31,7 +35,8 @@ function(icwafer_use_unity)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     get_target_property(sources ${target} SOURCES)
     get_target_property(folder ${target} SOURCE_DIR)
-    list(FILTER sources INCLUDE REGEX ${ICWAFER_UNITY_EXCEPT})
+    list(JOIN ICWAFER_UNITY_EXCEPT "|" except)
+    list(FILTER sources INCLUDE REGEX "${except}")
     foreach(source IN LISTS sources)
       cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
       set_source_files_properties(${source} TARGET_DIRECTORY ${target}
