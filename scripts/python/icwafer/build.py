@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Builds the targets `core`, `cycles` and `blender`; each only as far as something changed."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+
+from icwafer import layout, packages, progress, source
+from icwafer.errors import IcwaferError
+
+TARGETS = ("core", "cycles", "blender")
+#: CMake variables that a user may set, as `-DNAME=VALUE`.
+OPTIONS = ("ICWAFER_FULL", "ICWAFER_BLENDER_SOURCE")
+#: Free space that a build from nothing needs, in GB.
+SPACE_GB = {"core": 0.5, "cycles": 2.0, "blender": 4.0}
+#: Memory that one compiler may take, in GB.
+COMPILER_GB = {False: 0.9, True: 3.0}
+
+_CMAKE_TRUE = ("1", "ON", "YES", "TRUE", "Y")
+
+
+def definitions(words: list[str]) -> dict[str, str]:
+    """Reads `NAME=VALUE` words; an unknown name or a folder that is not there is an error."""
+    result: dict[str, str] = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        if name not in OPTIONS or not equals:
+            known = " or ".join(f"-D{option}=..." for option in OPTIONS)
+            raise IcwaferError(f"unknown option -D{word}: write {known}")
+        if name == "ICWAFER_BLENDER_SOURCE" and value:
+            if not Path(value).is_dir():
+                raise IcwaferError(f"{value}: no such folder; name a Blender source tree")
+            value = str(Path(value).resolve())
+        result[name] = value
+    return result
+
+
+def cached_option(name: str) -> str:
+    """The value of a CMake variable in the host's build folder; empty before the first build."""
+    cache = layout.BUILD / "host" / "CMakeCache.txt"
+    text = cache.read_text(encoding="utf-8") if cache.is_file() else ""
+    match = re.search(rf"^{name}:\w+=(.*)$", text, re.MULTILINE)
+    return match[1] if match else ""
+
+
+def is_full(options: Mapping[str, str]) -> bool:
+    """Whether Blender is built with everything that Debian's package has."""
+    value = options.get("ICWAFER_FULL", cached_option("ICWAFER_FULL"))
+    return value.upper() in _CMAKE_TRUE
+
+
+def free_gb(folder: Path) -> float:
+    """Free space where a folder is, in GB."""
+    return shutil.disk_usage(folder).free / 1e9
+
+
+def build(target: str, options: Mapping[str, str] | None = None) -> None:
+    """Brings a target up to date: packages, source, edits, configuration, compilation, install."""
+    options = options or {}
+    if target == "core":
+        packages.install("base", "core")
+        _expect_space(target, layout.BUILD / "core" / "build.ninja")
+        _configure(target, options)
+        _compile(target, layout.BUILD / "core", {})
+        return
+    full = is_full(options)
+    packages.install("base", "host", *(["full"] if full else []))
+    program = layout.CYCLES if target == "cycles" else layout.BLENDER
+    _expect_space(target, program)
+    origin = options.get("ICWAFER_BLENDER_SOURCE", cached_option("ICWAFER_BLENDER_SOURCE"))
+    source.provide(Path(origin) if origin else None)
+    _configure(target, options)
+    # The host's own ninja counts; the one around it keeps quiet.
+    _compile(target, layout.BUILD / "host", {"NINJA_STATUS": "- ", **_parallel(full)})
+    progress.run(
+        f"Installing to {layout.INSTALLED.relative_to(layout.REPOSITORY)}",
+        ["cmake", "--install", layout.BUILD / "host"],
+        layout.LOGS / f"{target}-install.log",
+    )
+
+
+def _expect_space(target: str, product: Path) -> None:
+    free, needed = free_gb(layout.REPOSITORY), SPACE_GB[target]
+    if not product.exists() and free < needed:
+        raise IcwaferError(
+            f"{layout.REPOSITORY}: {free:.1f} GB free, but building {target} needs {needed:g} GB; "
+            "make room and run the same command again"
+        )
+
+
+def _configure(target: str, options: Mapping[str, str]) -> None:
+    progress.run(
+        f"Configuring {target}",
+        [
+            "cmake",
+            "-S",
+            layout.REPOSITORY,
+            "--preset",
+            target,
+            *(f"-D{name}={value}" for name, value in options.items()),
+        ],
+        layout.LOGS / f"{target}-configure.log",
+    )
+
+
+def _compile(target: str, folder: Path, environment: Mapping[str, str]) -> None:
+    progress.run(
+        f"Building {target}",
+        ["cmake", "--build", folder],
+        layout.LOGS / f"{target}-build.log",
+        environment,
+        "mend this and run the same command again: what is built stays",
+    )
+
+
+def _parallel(full: bool) -> dict[str, str]:
+    """Fewer compilers at a time where memory is short; else ninja's own choice."""
+    memory_gb = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9
+    jobs = max(1, int(memory_gb / COMPILER_GB[full]))
+    enough = jobs >= (os.cpu_count() or 1) + 2
+    return {} if enough else {"CMAKE_BUILD_PARALLEL_LEVEL": str(jobs)}

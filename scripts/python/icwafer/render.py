@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Renders the project's pictures with the built Blender."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+from icwafer import layout, progress
+from icwafer.errors import IcwaferError
+
+_log = logging.getLogger(__name__)
+
+SCRIPT = Path(__file__).with_name("render_picture.py")
+#: Files of the package that a picture depends on, besides Blender itself.
+INPUTS = tuple(
+    SCRIPT.with_name(name)
+    for name in ("blender_scene.py", "die.py", "floorplan.py", "pictures.py", SCRIPT.name)
+)
+
+
+def expect_blender() -> None:
+    """Raises `IcwaferError` unless Blender is built."""
+    if not layout.BLENDER.is_file():
+        raise IcwaferError("Blender is not built yet; run scripts/icwafer build blender")
+
+
+def render(name: str, base: Path) -> tuple[Path, Path]:
+    """Renders the picture `name` to `base`.png and `base`.exr, unless both are up to date.
+
+    The files appear complete or not at all.
+    """
+    expect_blender()
+    finished = (base.with_suffix(".png"), base.with_suffix(".exr"))
+    if _up_to_date(finished):
+        _log.info("Picture %s is up to date", name)
+        return finished
+    unfinished = base.with_name("unfinished") / base.name
+    unfinished.parent.mkdir(parents=True, exist_ok=True)
+    progress.run(
+        f"Rendering {name}",
+        [
+            layout.BLENDER,
+            "-b",
+            "--factory-startup",
+            "--python-exit-code",
+            "1",
+            "-P",
+            SCRIPT,
+            "--",
+            name,
+            "--output",
+            unfinished,
+        ],
+        layout.LOGS / f"render-{name}.log",
+        advice="scripts/icwafer doctor checks Blender",
+    )
+    for path in finished:
+        unfinished.with_suffix(path.suffix).replace(path)
+    unfinished.parent.rmdir()
+    return finished
+
+
+def _up_to_date(products: tuple[Path, ...]) -> bool:
+    if not all(product.is_file() for product in products):
+        return False
+    newest = max(path.stat().st_mtime for path in (layout.BLENDER, *INPUTS) if path.exists())
+    return min(product.stat().st_mtime for product in products) >= newest
