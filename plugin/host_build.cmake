@@ -4,11 +4,12 @@
 # compilation, each only as far as something changed. `cmake --install` makes the folder that runs
 # from anywhere on the machine.
 #
-# The host's folders stand at fixed places below build/, the same in every clone, so that a compiler
-# cache serves them all.
+# The host's folders stand at fixed places below build/, the same in every clone, so that a
+# compiler cache serves them all.
 
 option(ICWAFER_FULL
-  "Blender with everything that Debian's package has, motion tracking and audio devices included" OFF
+  "Blender with everything that Debian's package has, motion tracking and audio devices included"
+  OFF
 )
 set(ICWAFER_BLENDER_SOURCE "" CACHE PATH
   "Source tree of the same Blender version, used (as a copy) instead of Debian's source package"
@@ -45,6 +46,7 @@ set(configure_host
   ${CMAKE_COMMAND} -G Ninja -C ${host_options} -S ${host_source} -B ${host_binary}
   -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_INSTALL_PREFIX=${host_stage}
+  -DCMAKE_PROJECT_Blender_INCLUDE=${host_folder}/unity.cmake
   -DWITH_COMPILER_CCACHE=${with_ccache}
 )
 list(JOIN configure_host "\n" configure_host_text)
@@ -56,6 +58,7 @@ add_custom_command(
   DEPENDS
     ${CMAKE_CURRENT_BINARY_DIR}/host_configuration.txt
     ${host_folder}/options.cmake
+    ${host_folder}/unity.cmake
     ${host_options}
   USES_TERMINAL VERBATIM
 )
@@ -75,8 +78,8 @@ add_custom_target(host ALL
 add_dependencies(host host_source)
 
 if(ICWAFER_BUILD STREQUAL "blender")
-  # Debian's patches install Blender's scripts as for /usr; beside the program it looks for them in
-  # the folder of its version.
+  # Debian's patches install Blender's scripts and translations as for /usr; beside the program it
+  # looks for them in the folder of its version.
   string(REGEX REPLACE "\\.[0-9]+$" "" version_folder ${host_version})
   install(DIRECTORY ${host_stage}/ DESTINATION . USE_SOURCE_PERMISSIONS
     REGEX "/stage/share$" EXCLUDE
@@ -84,6 +87,7 @@ if(ICWAFER_BUILD STREQUAL "blender")
   install(DIRECTORY ${host_stage}/share/blender/scripts DESTINATION ${version_folder}
     USE_SOURCE_PERMISSIONS OPTIONAL
   )
+  install(DIRECTORY ${host_stage}/share/locale DESTINATION ${version_folder}/datafiles OPTIONAL)
 else()
   install(PROGRAMS ${host_binary}/bin/cycles DESTINATION .)
 endif()

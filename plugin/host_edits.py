@@ -141,7 +141,9 @@ def load_edits(host: Path, repository: Path = REPOSITORY) -> HostEdits:
     return HostEdits(source, content["version"], added, edits)
 
 
-def _expect_keys(item: dict[str, object], needed: set[str], optional: set[str], where: str) -> None:
+def _expect_keys(
+    item: dict[str, object], needed: set[str], optional: set[str], where: str
+) -> None:
     for key in sorted(needed - item.keys()):
         raise HostEditError(f"{where}: '{key}' is missing")
     for key in sorted(item.keys() - needed - optional):
@@ -164,7 +166,9 @@ def _added_files(repository: Path, origin: str, target: str, source: Path) -> di
         return {target: ours}
     headers = sorted(ours.rglob("*.h")) if ours.is_dir() else []
     if not headers:
-        raise HostEditError(f"{source}: [[add]] '{origin}' is neither a file nor a folder with *.h")
+        raise HostEditError(
+            f"{source}: [[add]] '{origin}' is neither a file nor a folder with *.h"
+        )
     return {f"{target}/{header.relative_to(ours).as_posix()}": header for header in headers}
 
 
@@ -207,8 +211,10 @@ def edited_text(original: bytes, edits: list[Edit], source: Path) -> bytes:
     done = 0
     for begin, end, text, edit in replacements:
         if begin < done:
-            raise HostEditError(f"{edit.file}: anchor {_quote(edit.anchor)} overlaps another edit "
-                                f"of this file; mend {source}")  # fmt: skip
+            raise HostEditError(
+                f"{edit.file}: anchor {_quote(edit.anchor)} overlaps another edit "
+                f"of this file; mend {source}"
+            )
         pieces += [original[done:begin], text]
         done = end
     return b"".join([*pieces, original[done:]])
@@ -218,8 +224,10 @@ def _replacement(original: bytes, edit: Edit, source: Path) -> tuple[int, int, b
     """The half-open range of `original` that an edit replaces, and what it puts there."""
     count = original.count(edit.anchor)
     if count != 1:
-        raise HostEditError(f"{edit.file}: anchor {_quote(edit.anchor)} found {count} times, not "
-                            f"once; mend {source} or take an unchanged source tree")  # fmt: skip
+        raise HostEditError(
+            f"{edit.file}: anchor {_quote(edit.anchor)} found {count} times, not "
+            f"once; mend {source} or take an unchanged source tree"
+        )
     begin = original.index(edit.anchor)
     end = begin + len(edit.anchor)
     if edit.place == "replace":
@@ -280,10 +288,13 @@ class _Tree:
     def _expect_unchanged(self) -> None:
         for path, entry in self.manifest.files.items():
             current = _read(self.root / path)
-            if (None if current is None else _hash(current)) not in (entry.original, *entry.edited):
+            if (None if current is None else _hash(current)) not in (
+                entry.original,
+                *entry.edited,
+            ):
                 raise HostEditError(
-                    f"{path}: changed in {self.root} since the edits were applied; make the change "
-                    "in the project's own files, and take an unchanged source tree"
+                    f"{path}: changed in {self.root} since the edits were applied; make the "
+                    "change in the project's own files, and take an unchanged source tree"
                 )
 
     def original(self, path: str) -> bytes | None:
@@ -435,13 +446,18 @@ def _change(before: _Tree, wanted: dict[str, bytes]) -> list[str]:
     # While files are being renamed, both the old and the new ones are accepted as ours.
     interim = Manifest(
         {
-            path: Entry(entry.original, tuple(dict.fromkeys(
-                (*entry.edited, *(old.files[path].edited if path in old.files else ()))
-            )))
+            path: Entry(
+                entry.original,
+                tuple(
+                    dict.fromkeys(
+                        (*entry.edited, *(old.files[path].edited if path in old.files else ()))
+                    )
+                ),
+            )
             for path, entry in (old.files | entries).items()
         },
         tuple(sorted(made | set(old.folders))),
-    )  # fmt: skip
+    )
     state = root / STATE_FOLDER
     with _Transaction(root).run() as transaction:
         for path in wanted.keys() - old.files.keys():
@@ -514,8 +530,11 @@ def main(argv: list[str] | None = None) -> int:
     except HostEditError as error:
         print(f"host_edits: {error}", file=sys.stderr)
     except OSError as error:
-        print(f"host_edits: {error.filename or arguments.tree}: {error.strerror}; the tree is "
-              "as it was: mend this and run the command again", file=sys.stderr)  # fmt: skip
+        print(
+            f"host_edits: {error.filename or arguments.tree}: {error.strerror}; the tree is "
+            "as it was: mend this and run the command again",
+            file=sys.stderr,
+        )
     except KeyboardInterrupt:
         print("host_edits: interrupted; the tree is as it was", file=sys.stderr)
         return 130

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# What Blender 3.4.1 is built with, on Debian 12: all that an artist who renders needs. Blender's own
-# defaults stand where nothing is said here. Read by `cmake -C`.
+# What Blender 3.4.1 is built with, on Debian 12: all that an artist who renders needs. Blender's
+# own defaults stand where nothing is said here. Read by `cmake -C`.
 
 set(on
   WITH_CODEC_FFMPEG

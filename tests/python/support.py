@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the tests of the command share: a build folder of their own, and programs made up for them."""
+"""What the tests of the command share: a build folder of their own, and made-up programs."""
 
 from __future__ import annotations
 

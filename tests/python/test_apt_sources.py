@@ -60,9 +60,14 @@ class AptSourcesTest(unittest.TestCase):
         )
         self.assertEqual(
             self.read("debian.sources", text),
-            [Origin("http://mirror.example/debian", "bookworm",
-                    ("signed-by=/usr/share/keyrings/site.gpg",))],
-        )  # fmt: skip
+            [
+                Origin(
+                    "http://mirror.example/debian",
+                    "bookworm",
+                    ("signed-by=/usr/share/keyrings/site.gpg",),
+                )
+            ],
+        )
 
     def test_the_same_mirror_twice_counts_once(self) -> None:
         line = "deb http://mirror.example/debian bookworm main\n"

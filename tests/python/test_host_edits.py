@@ -128,7 +128,8 @@ class ApplyTest(HostEditsTest):
         changed = self.apply()
         self.assertEqual(
             (self.tree / NODE_HEADER).read_text(),
-            "/* Nodes. */\n#define NODE_A 1\n#define NODE_B 2\n#define NODE_WAFER 3\n#define END\n",
+            "/* Nodes. */\n#define NODE_A 1\n#define NODE_B 2\n"
+            "#define NODE_WAFER 3\n#define END\n",
         )
         self.assertEqual((self.tree / TYPES).read_text(), "enum {\n  A,\n  B,\n  WAFER,\n  C,\n};")
         kernel = self.tree / "intern/cycles/kernel/icwafer"
@@ -152,7 +153,8 @@ class ApplyTest(HostEditsTest):
         for letter in "PQ":
             self.write_edits(
                 (self.host / "edits.toml").read_text()
-                + f'\n[[edit]]\nfile = "{TYPES}"\nanchor = "  A,"\nplace = "after"\ntext = "{letter}"\n'
+                + f'\n[[edit]]\nfile = "{TYPES}"\nanchor = "  A,"\n'
+                + f'place = "after"\ntext = "{letter}"\n'
             )
         self.apply()
         self.assertIn("  A,\nP\nQ\n  B,\n", (self.tree / TYPES).read_text())
@@ -387,7 +389,13 @@ class InterruptionTest(HostEditsTest):
         )
         for survived in range(9):  # two originals, two manifests, five files
             with self.subTest(survived=survived):
-                arguments = [REPOSITORY / "plugin", self.tree, self.host, self.repository, survived]
+                arguments = [
+                    REPOSITORY / "plugin",
+                    self.tree,
+                    self.host,
+                    self.repository,
+                    survived,
+                ]
                 done = subprocess.run([sys.executable, "-c", program, *map(str, arguments)])
                 self.assertEqual(done.returncode, -signal.SIGKILL)
                 host_edits.revert(self.tree)
@@ -420,17 +428,29 @@ class CommandTest(HostEditsTest):
         """No file may grow beyond 4 KiB, and one of ours is larger: as on a full disk."""
         self.write(self.host / "node.cc", "// large\n" * 1000)
         self.write_edits(EDITS[: EDITS.index("[[add]]")] + EDITS[EDITS.index("[[edit]]") :])
-        self.write(self.tree / NODE_HEADER, (self.tree / NODE_HEADER).read_text() + "/**/\n" * 1000)
+        self.write(
+            self.tree / NODE_HEADER, (self.tree / NODE_HEADER).read_text() + "/**/\n" * 1000
+        )
         before = snapshot(self.tree)
 
         def limit() -> None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
 
         done = subprocess.run(
-            [sys.executable, REPOSITORY / "plugin/host_edits.py", "apply", "--tree", self.tree,
-             "--host", self.host],
-            preexec_fn=limit, capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"},
-        )  # fmt: skip
+            [
+                sys.executable,
+                REPOSITORY / "plugin/host_edits.py",
+                "apply",
+                "--tree",
+                self.tree,
+                "--host",
+                self.host,
+            ],
+            preexec_fn=limit,
+            capture_output=True,
+            text=True,
+            env={**os.environ, "LC_ALL": "C"},
+        )
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1)
         self.assertIn("the tree is as it was", done.stderr)

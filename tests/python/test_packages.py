@@ -66,7 +66,9 @@ class InstallTest(CommandCase):
         self.assertEqual(self.asked_for(), [])
 
     def test_lists_that_cannot_be_renewed_are_not_fatal(self) -> None:
-        self.fake_program("apt-get", f'case "$*" in *update) exit 100;; esac; echo x > {self.asked}')
+        self.fake_program(
+            "apt-get", f'case "$*" in *update) exit 100;; esac; echo x > {self.asked}'
+        )
         with self.assertLogs("icwafer.packages", "WARNING"):
             packages.install("test")
         self.assertEqual(self.asked_for(), ["x"])

@@ -53,15 +53,17 @@ class ProgressTest(unittest.TestCase):
 
     def test_the_line_that_matters(self) -> None:
         cases = {
-            "[1/2] cc a.c\na.c:3:5: warning: unused\na.c:9:1: error: 'x' undeclared\nninja: stopped":
-                "a.c:9:1: error: 'x' undeclared",
-            "-- checking\nCMake Error at CMakeLists.txt:7 (message):\n  No library.\n\n-- incomplete":
-                "CMake Error at CMakeLists.txt:7 (message): No library.",
+            "a.c:3:5: warning: unused\na.c:9:1: error: 'x' undeclared\nninja: stopped": (
+                "a.c:9:1: error: 'x' undeclared"
+            ),
+            "-- checking\nCMake Error at x.txt:7 (message):\n  No library.\n\n-- incomplete": (
+                "CMake Error at x.txt:7 (message): No library."
+            ),
             "Err:1 http://x\nE: Unable to fetch some archives": "E: Unable to fetch some archives",
             "a.c:9:1: error: first\ncc: No space left on device": "cc: No space left on device",
             "some text\nlast words\n": "last words",
             "": "it wrote nothing",
-        }  # fmt: skip
+        }
         for log, line in cases.items():
             self.assertEqual(progress.first_error(log), line)
 
@@ -81,7 +83,9 @@ class RunTest(CommandCase):
 
     def test_a_failure_names_the_error_and_the_log(self) -> None:
         with self.assertRaises(IcwaferError) as caught:
-            self.run_quietly("sh", "-c", "echo before; echo 'x.cpp:1: error: bad'; echo after; exit 3")
+            self.run_quietly(
+                "sh", "-c", "echo before; echo 'x.cpp:1: error: bad'; echo after; exit 3"
+            )
         message = str(caught.exception)
         self.assertIn("Step failed: x.cpp:1: error: bad", message)
         self.assertIn(str(self.folder / "log" / "step.log"), message)
@@ -105,16 +109,21 @@ class RunTest(CommandCase):
         for sent in (signal.SIGINT, signal.SIGTERM):
             child.unlink(missing_ok=True)
             process = subprocess.Popen(
-                command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                command,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
                 env={**os.environ, "PYTHONPATH": str(REPOSITORY / "scripts" / "python")},
-            )  # fmt: skip
+            )
             deadline = time.monotonic() + 20
             while not child.exists() and time.monotonic() < deadline:
                 time.sleep(0.02)
             process.send_signal(sent)
             out, err = process.communicate(timeout=30)
             self.assertEqual(process.returncode, 130)
-            self.assertEqual(err, "icwafer: interrupted; the same command goes on where it stopped\n")
+            self.assertEqual(
+                err, "icwafer: interrupted; the same command goes on where it stopped\n"
+            )
             self.assertIn("Step: stopped", out)
             while is_running(int(child.read_text())):
                 self.assertLess(time.monotonic(), deadline, "the child is still running")

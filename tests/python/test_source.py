@@ -52,8 +52,10 @@ class TreeTest(CommandCase):
         other = blender_tree(self.folder / "other")
         source.provide(other)
         self.assertFalse((tree / "mark").exists())
-        self.assertEqual(sorted(p.name for p in tree.parent.iterdir()),
-                         ["blender-3.4.1", "blender-3.4.1.origin"])  # fmt: skip
+        self.assertEqual(
+            sorted(p.name for p in tree.parent.iterdir()),
+            ["blender-3.4.1", "blender-3.4.1.origin"],
+        )
 
     def test_an_interrupted_copy_is_made_again(self) -> None:
         write(layout.BUILD / "source" / "blender-3.4.1.new" / "half", "")
@@ -79,12 +81,22 @@ class TreeTest(CommandCase):
             "sys.exit(cli.main(sys.argv[3:]))"
         )
         done = subprocess.run(
-            [sys.executable, "-B", "-c", program, layout.BUILD, self.host,
-             "source", "--from", self.origin],
+            [
+                sys.executable,
+                "-B",
+                "-c",
+                program,
+                layout.BUILD,
+                self.host,
+                "source",
+                "--from",
+                self.origin,
+            ],
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 16, 1 << 16)),
-            capture_output=True, text=True,
+            capture_output=True,
+            text=True,
             env={**os.environ, "PYTHONPATH": str(REPOSITORY / "scripts" / "python")},
-        )  # fmt: skip
+        )
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertIn("File too large", done.stderr)
@@ -137,7 +149,9 @@ class PackageTest(CommandCase):
         self.expect_error(["source"], 1, self.names[2], "run the same command again")
 
     def test_no_network(self) -> None:
-        nowhere = write(self.folder / "sources.list", "deb http://127.0.0.1:9/debian bookworm main\n")
+        nowhere = write(
+            self.folder / "sources.list", "deb http://127.0.0.1:9/debian bookworm main\n"
+        )
         self.replace(apt_sources, configured_files=lambda: [nowhere])
         self.expect_error(["source"], 1, "127.0.0.1", "check the network")
         self.assertFalse(layout.host_source().exists())
@@ -162,9 +176,11 @@ class PackageTest(CommandCase):
         )
         self.assertEqual(
             source.newest_record(records, "3.4.1"),
-            ("3.4.1+dfsg-2",
-             {"blender_3.4.1+dfsg-2.dsc": "bbbb", "blender_3.4.1+dfsg.orig.tar.xz": "cccc"}),
-        )  # fmt: skip
+            (
+                "3.4.1+dfsg-2",
+                {"blender_3.4.1+dfsg-2.dsc": "bbbb", "blender_3.4.1+dfsg.orig.tar.xz": "cccc"},
+            ),
+        )
         self.assertEqual(source.newest_record(records, "3.4"), ("", {}))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Builds the targets `core`, `cycles` and `blender`; each step only as far as something changed."""
+"""Builds the targets `core`, `cycles` and `blender`; each only as far as something changed."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def definitions(words: list[str]) -> dict[str, str]:
 
 
 def cached_option(name: str) -> str:
-    """The value that a CMake variable has in the host's build folder; empty before the first build."""
+    """The value of a CMake variable in the host's build folder; empty before the first build."""
     cache = layout.BUILD / "host" / "CMakeCache.txt"
     text = cache.read_text(encoding="utf-8") if cache.is_file() else ""
     match = re.search(rf"^{name}:\w+=(.*)$", text, re.MULTILINE)
@@ -95,10 +95,16 @@ def _expect_space(target: str, product: Path) -> None:
 def _configure(target: str, options: Mapping[str, str]) -> None:
     progress.run(
         f"Configuring {target}",
-        ["cmake", "-S", layout.REPOSITORY, "--preset", target,
-         *(f"-D{name}={value}" for name, value in options.items())],
+        [
+            "cmake",
+            "-S",
+            layout.REPOSITORY,
+            "--preset",
+            target,
+            *(f"-D{name}={value}" for name, value in options.items()),
+        ],
         layout.LOGS / f"{target}-configure.log",
-    )  # fmt: skip
+    )
 
 
 def _compile(target: str, folder: Path, environment: Mapping[str, str]) -> None:

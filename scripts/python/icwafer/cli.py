@@ -73,7 +73,9 @@ def _test(arguments: list[str]) -> int:
     build.build("core")
     build.build("blender")
     packages.install("test")
-    return subprocess.run(["ctest", "--preset", "core", *arguments], cwd=layout.REPOSITORY).returncode
+    return subprocess.run(
+        ["ctest", "--preset", "core", *arguments], cwd=layout.REPOSITORY
+    ).returncode
 
 
 def _blender(arguments: list[str]) -> int:
@@ -98,9 +100,13 @@ def _parser() -> _Parser:
 
     def add_definitions(command: argparse.ArgumentParser) -> None:
         command.add_argument(
-            "-D", dest="definitions", action="append", default=[], metavar="NAME=VALUE",
+            "-D",
+            dest="definitions",
+            action="append",
+            default=[],
+            metavar="NAME=VALUE",
             help=f"option of the build: {' or '.join(build.OPTIONS)}",
-        )  # fmt: skip
+        )
 
     demo = add("demo", "build what is missing and render out/demo/wafer.png")
     add_definitions(demo)
@@ -113,10 +119,14 @@ def _parser() -> _Parser:
     add("blender", "start the built Blender; arguments go to it")
     add("doctor", "check dependencies, source edits and build").set_defaults(run=_doctor)
     pictures = add("pictures", "render the README's pictures to out/pictures")
-    pictures.add_argument("names", nargs="*", metavar="NAME", help="pictures; all if none is named")
+    pictures.add_argument(
+        "names", nargs="*", metavar="NAME", help="pictures; all if none is named"
+    )
     pictures.set_defaults(run=_pictures)
     source_command = add("source", "unpack the host's source and apply the edits")
-    source_command.add_argument("--from", dest="origin", metavar="DIR", help="tree to copy instead")
+    source_command.add_argument(
+        "--from", dest="origin", metavar="DIR", help="tree to copy instead"
+    )
     source_command.set_defaults(run=_source)
     return parser
 

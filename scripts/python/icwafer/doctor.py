@@ -71,7 +71,7 @@ def check_space() -> Finding:
     return Finding("disk", text, mend)
 
 
-def check_edits(tree: Path, host: Path = layout.HOST, repository: Path = layout.REPOSITORY) -> Finding:
+def check_edits(tree: Path, host: Path, repository: Path) -> Finding:
     """The host's source is there, and our edits in it are complete and up to date."""
     subject = "source edits"
     mend = "run scripts/icwafer build blender"
@@ -93,7 +93,8 @@ def check_program(subject: str, built: Path, installed: Path, target: str) -> Fi
         return Finding(subject, "half built" if started else "not built yet", mend)
     if not installed.is_file():
         return Finding(subject, "built, but not installed", mend)
-    if installed.stat().st_mtime < built.stat().st_mtime:
+    # An installed file has its time in whole seconds.
+    if installed.stat().st_mtime < int(built.stat().st_mtime):
         return Finding(subject, f"{installed} is older than the build", mend)
     return Finding(subject, str(installed))
 
@@ -106,9 +107,10 @@ def check_core() -> Finding:
     return Finding("core", "not built yet", "run scripts/icwafer build core")
 
 
-def check_start(blender: Path = layout.BLENDER) -> Finding:
+def check_start() -> Finding:
     """Blender starts without a window, its Python works, and it knows the node."""
     mend = "run scripts/icwafer build blender; if that does not help, remove build/install first"
+    blender = layout.BLENDER
     command = [blender, "-b", "--factory-startup", "--python-exit-code", "1"]
     try:
         done = subprocess.run(
@@ -138,7 +140,7 @@ def checks() -> list[Callable[[], Finding]]:
         lambda: check_packages("packages to test", "test"),
         check_compiler_cache,
         check_space,
-        lambda: check_edits(layout.host_source()),
+        lambda: check_edits(layout.host_source(), layout.HOST, layout.REPOSITORY),
         check_core,
         lambda: check_program("cycles", bin_folder / "cycles", layout.CYCLES, "blender"),
         lambda: check_program("Blender", bin_folder / "blender", layout.BLENDER, "blender"),

@@ -15,14 +15,21 @@ from icwafer.errors import IcwaferError
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests with Blender.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests that start
+#: Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
-    "core": ("libbenchmark-dev", "libgmock-dev", "libgtest-dev", "python3-pyopencolorio"),
+    "core": (
+        "libbenchmark-dev",
+        "libboost-dev",
+        "libgmock-dev",
+        "libgtest-dev",
+        "python3-pyopencolorio",
+    ),
     "host": tuple(
         """
         ccache dpkg-dev gettext libavcodec-dev libavdevice-dev libavfilter-dev libavformat-dev
-        libblosc-dev libboost-dev libboost-filesystem-dev libboost-iostreams-dev
+        libblosc-dev libboost-filesystem-dev libboost-iostreams-dev
         libboost-locale-dev libboost-regex-dev libboost-system-dev libboost-thread-dev
         libembree-dev libepoxy-dev libfftw3-dev libfontconfig-dev libfreetype-dev libglew-dev
         libgmp-dev libhpdf-dev libjemalloc-dev libjpeg-dev liblzma-dev liblzo2-dev
@@ -33,11 +40,13 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         pkg-config python3-dev python3-requests
         """.split()
     ),
-    "full": tuple(
-        """
-        libalut-dev libgettextpo-dev libgsm1-dev libjack-dev libopenal-dev libsdl2-dev
-        libsndfile1-dev libspnav-dev opencollada-dev
-        """.split()
+    "full": (
+        "libjack-dev",
+        "libopenal-dev",
+        "libsdl2-dev",
+        "libsndfile1-dev",
+        "libspnav-dev",
+        "opencollada-dev",
     ),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }
@@ -88,7 +97,9 @@ def install(*purposes: str) -> None:
     _log.info("Installing through apt: %s", " ".join(absent))
     environment = {"DEBIAN_FRONTEND": "noninteractive", "LC_ALL": "C"}
     try:
-        progress.run("Package lists", [*apt, "update"], layout.LOGS / "apt-update.log", environment)
+        progress.run(
+            "Package lists", [*apt, "update"], layout.LOGS / "apt-update.log", environment
+        )
     except IcwaferError as error:  # another repository may be at fault: the installation decides
         _log.warning("%s", error)
     progress.run(

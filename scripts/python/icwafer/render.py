@@ -13,7 +13,10 @@ _log = logging.getLogger(__name__)
 
 SCRIPT = Path(__file__).with_name("render_picture.py")
 #: Files of the package that a picture depends on, besides Blender itself.
-INPUTS = (SCRIPT, SCRIPT.with_name("pictures.py"), SCRIPT.with_name("die.py"))
+INPUTS = tuple(
+    SCRIPT.with_name(name)
+    for name in ("blender_scene.py", "die.py", "floorplan.py", "pictures.py", SCRIPT.name)
+)
 
 
 def expect_blender() -> None:
@@ -36,11 +39,22 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
     unfinished.parent.mkdir(parents=True, exist_ok=True)
     progress.run(
         f"Rendering {name}",
-        [layout.BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "-P", SCRIPT, "--",
-         name, "--output", unfinished],
+        [
+            layout.BLENDER,
+            "-b",
+            "--factory-startup",
+            "--python-exit-code",
+            "1",
+            "-P",
+            SCRIPT,
+            "--",
+            name,
+            "--output",
+            unfinished,
+        ],
         layout.LOGS / f"render-{name}.log",
         advice="scripts/icwafer doctor checks Blender",
-    )  # fmt: skip
+    )
     for path in finished:
         unfinished.with_suffix(path.suffix).replace(path)
     unfinished.parent.rmdir()

@@ -191,12 +191,21 @@ def _download(folder: Path) -> None:
     # apt-get has no option for the folder that it downloads to: it is the working folder.
     progress.run(
         f"Source package {PACKAGE} {version}",
-        ["env", f"--chdir={folder}", "apt-get", "-q", *options, "source", "--download-only",
-         "--only-source", f"{PACKAGE}={version}"],
+        [
+            "env",
+            f"--chdir={folder}",
+            "apt-get",
+            "-q",
+            *options,
+            "source",
+            "--download-only",
+            "--only-source",
+            f"{PACKAGE}={version}",
+        ],
         layout.LOGS / "source-download.log",
         environment,
         advice,
-    )  # fmt: skip
+    )
     text = "".join(f"{checksum}  {name}\n" for name, checksum in sums.items())
     (folder / SUMS).write_text(text, encoding="utf-8")
     shutil.rmtree(folder / "apt")
