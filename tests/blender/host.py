@@ -193,7 +193,8 @@ def run_inside(
     given.write_text(json.dumps(parameters | {"report": str(report)}))
     ended = run(
         blender,
-        *([] if window else ["--background"]),
+        # In a window only what the script does counts, not where the mouse happens to be.
+        "--enable-event-simulate" if window else "--background",
         "--factory-startup",
         "--python-exit-code", "1",
         "--python-expr", f"import sys; sys.path.insert(0, {str(INSIDE)!r})",

@@ -13,16 +13,18 @@ import pixels
 class Window(unittest.TestCase):
     facts: dict[str, list[float]]
     shot: np.ndarray
+    tooltip_shot: np.ndarray
 
     @classmethod
     def setUpClass(cls) -> None:
         folder = host.fresh_folder("window")
-        png = folder / "shader_editor.png"
+        png, tooltip_png = folder / "shader_editor.png", folder / "tooltip.png"
         cls.facts = host.run_inside(
             host.built_blender(),
             "window_shot",
             {
                 "png": str(png),
+                "tooltip_png": str(tooltip_png),
                 "python": str(host.REPOSITORY / "scripts" / "python"),
                 "picture": "clustered_groups",
                 "pause_s": 4.0,
@@ -31,13 +33,13 @@ class Window(unittest.TestCase):
             seconds=120,
             window=True,
         )
-        cls.shot = pixels.read(png)
+        cls.shot, cls.tooltip_shot = pixels.read(png), pixels.read(tooltip_png)
 
-    def part(self, rectangle: list[float]) -> np.ndarray:
+    def part(self, shot: np.ndarray, rectangle: list[float]) -> np.ndarray:
         """The pixels in left, bottom, right, top, counted from the window's lower left corner."""
         left, bottom, right, top = (round(edge) for edge in rectangle)
-        height = self.shot.shape[0]
-        return self.shot[height - top : height - bottom, left:right]
+        height = shot.shape[0]
+        return shot[height - top : height - bottom, left:right]
 
     def test_it_is_the_window(self) -> None:
         width, height = self.facts["window"]
@@ -52,11 +54,23 @@ class Window(unittest.TestCase):
         inside_left, inside_bottom, inside_right, inside_top = self.facts["editor"]
         self.assertTrue(inside_left <= left < right <= inside_right)
         self.assertTrue(inside_bottom <= bottom < top <= inside_top)
-        red, green, blue = np.median(self.part([left + 8, top - 14, right - 8, top - 4]), (0, 1))
+        red, green, blue = np.median(
+            self.part(self.shot, [left + 8, top - 14, right - 8, top - 4]), (0, 1)
+        )
         self.assertGreater(green, 1.2 * max(red, blue), "the title is not green")
-        body = self.part([left + 8, bottom + 8, right - 8, top - 30]).mean(axis=2)
+        body = self.part(self.shot, [left + 8, bottom + 8, right - 8, top - 30]).mean(axis=2)
         lit_rows = (np.ptp(body, axis=1) > 0.2).mean()
         self.assertGreater(float(lit_rows), 0.4, "few of its rows have words or sliders")
+
+    def test_a_socket_has_a_tooltip(self) -> None:
+        """A box wider than a few words, with bright letters on it, appears at the last socket."""
+        before, after = (
+            self.part(shot, self.facts["editor"]).mean(axis=2)
+            for shot in (self.shot, self.tooltip_shot)
+        )
+        changed = np.abs(after - before) > 0.02
+        self.assertGreater(int(np.ptp(np.flatnonzero(changed.any(axis=0)))), 300)
+        self.assertGreater(int((changed & (after > 0.6)).sum()), 200, "a box without words")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The node in the shader editor beside a rendered die: a picture of Blender's window.
 
-Parameters: `png`; `python`, the folder of the package icwafer; `picture`, one of its pictures;
-`pause_s`, the time that the viewport gets to render.
+Parameters: `png`; `tooltip_png`, the same with the mouse on the last socket; `python`, the folder
+of the package icwafer; `picture`, one of its pictures; `pause_s`, the time for each step, in which
+the viewport renders and the tooltip appears.
 """
 
 from __future__ import annotations
@@ -32,6 +33,10 @@ def tidy_tree() -> None:
     """Fold the nodes that feed the wafer, so that the editor has room for it in full size."""
     node = wafer_node()
     wafer_tree().nodes.active = node
+    # No socket's name is cut off.
+    node.width = 200.0
+    output = wafer_tree().nodes["Material Output"]
+    output.location = (node.location.x + node.width + 50.0, node.location.y)
     sources = [n for n in wafer_tree().nodes if n.bl_idname == "ShaderNodeAttribute"]
     for row, source in enumerate(sources):
         source.hide = True
@@ -73,30 +78,58 @@ def come_closer() -> None:
             bpy.ops.view2d.zoom_in()
 
 
-def shoot() -> None:
-    bpy.ops.screen.screenshot(filepath=parameters()["png"])
-    context = context_of(area_of("NODE_EDITOR"))
-    region, window, node = context["region"], context["window"], wafer_node()
+def node_rectangle() -> tuple[float, float, float, float]:
+    """Left, bottom, right and top of the node, in pixels of the window."""
+    region, node = context_of(area_of("NODE_EDITOR"))["region"], wafer_node()
     scale = bpy.context.preferences.system.ui_scale
     size = node.dimensions / scale
     (left, top), (right, bottom) = (
         region.view2d.view_to_region(scale * x, scale * y, clip=False)
         for x, y in (node.location, (node.location.x + size.x, node.location.y - size.y))
     )
+    return region.x + left, region.y + bottom, region.x + right, region.y + top
+
+
+def shoot() -> None:
+    bpy.ops.screen.screenshot(filepath=parameters()["png"])
+    region, window = (context_of(area_of("NODE_EDITOR"))[name] for name in ("region", "window"))
     report(
         {
             "window": [window.width, window.height],
-            "node": [region.x + left, region.y + bottom, region.x + right, region.y + top],
+            "node": node_rectangle(),
             "editor": [region.x, region.y, region.x + region.width, region.y + region.height],
         }
     )
+
+
+def hover() -> None:
+    """Bring the mouse to the last input's socket, on the node's left edge close to its foot."""
+    left, bottom, right, _ = node_rectangle()
+    zoom = (right - left) / wafer_node().width
+    window = bpy.context.window_manager.windows[0]
+    for away in (30, 15, 0):
+        window.event_simulate(
+            type="MOUSEMOVE", value="NOTHING", x=round(left) - away, y=round(bottom + 18.5 * zoom)
+        )
+
+
+def shoot_tooltip() -> None:
+    bpy.ops.screen.screenshot(filepath=parameters()["tooltip_png"])
 
 
 scene = build(PICTURES[parameters()["picture"]])
 # The shader editor shows the active object's material.
 bpy.context.view_layer.objects.active = scene.objects["Die"]
 # An upright view would show the die small.
-scene.camera.data.lens *= 1.7
+scene.camera.data.lens *= 2.0
 scene.cycles.preview_samples = 64
 scene.cycles.use_preview_denoising = False
-in_window(arrange, frame_nodes, come_closer, shoot, pause_s=parameters()["pause_s"])
+in_window(
+    arrange,
+    frame_nodes,
+    come_closer,
+    shoot,
+    hover,
+    shoot_tooltip,
+    pause_s=parameters()["pause_s"],
+)
