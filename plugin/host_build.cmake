@@ -78,8 +78,8 @@ add_custom_target(host ALL
 add_dependencies(host host_source)
 
 if(ICWAFER_BUILD STREQUAL "blender")
-  # Debian's patches install Blender's scripts as for /usr; beside the program it looks for them in
-  # the folder of its version.
+  # Debian's patches install Blender's scripts and translations as for /usr; beside the program it
+  # looks for them in the folder of its version.
   string(REGEX REPLACE "\\.[0-9]+$" "" version_folder ${host_version})
   install(DIRECTORY ${host_stage}/ DESTINATION . USE_SOURCE_PERMISSIONS
     REGEX "/stage/share$" EXCLUDE
@@ -87,6 +87,7 @@ if(ICWAFER_BUILD STREQUAL "blender")
   install(DIRECTORY ${host_stage}/share/blender/scripts DESTINATION ${version_folder}
     USE_SOURCE_PERMISSIONS OPTIONAL
   )
+  install(DIRECTORY ${host_stage}/share/locale DESTINATION ${version_folder}/datafiles OPTIONAL)
 else()
   install(PROGRAMS ${host_binary}/bin/cycles DESTINATION .)
 endif()

@@ -33,7 +33,7 @@
   X(specular, "Specular", 0.3f, 0.0f, 1.0f, FACTOR, \
     "Strength of the uncoloured mirror reflection, 0 to 1. Chips: 0.3. Brightness of the " \
     "reflected room and lamps") \
-  X(specular_roughness, "Specular Roughness", 0.15f, 0.0f, 1.0f, FACTOR, \
+  X(specular_roughness, "Specular Roughness", 0.1f, 0.0f, 1.0f, FACTOR, \
     "Roughness of the mirror reflection, 0 to 1, as in Glossy BSDF. Polished wafers: 0 to 0.1. " \
     "Blurs the reflected room") \
   X(diffuse, "Diffuse", 0.0f, 0.0f, 1.0f, FACTOR, \

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The eight pictures as data: which die, which effects, lit and seen how, and what each one shows.
+
+Lengths are in millimetres, and so is the scene: 1 Blender unit is 1 mm. The die lies in the plane
+z = 0 with its centre at the origin.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from icwafer.die import DieSpec, Group, Spread, with_spacing
+from icwafer.floorplan import Kind
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Light:
+    """A lamp. `power_w` is Blender's radiant power for a point in all directions.
+
+    colour: linear Rec.709, each channel 0 to 1.
+    radius_mm: of the glowing ball; a larger one gives softer colours.
+    cone_deg, blend, target_mm: only of a spot.
+    """
+
+    kind: str  # POINT or SPOT, as Blender calls them
+    position_mm: Vector
+    power_w: float
+    colour: Vector = (1.0, 1.0, 1.0)
+    radius_mm: float = 0.3
+    cone_deg: float = 40.0
+    blend: float = 1.0
+    target_mm: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Camera:
+    position_mm: Vector
+    target_mm: Vector
+    lens_mm: float = 50.0
+
+
+@dataclass(frozen=True)
+class Effects:
+    """Which of the three diffraction effects of the model are on."""
+
+    grating: bool = True
+    thin_film: bool = True
+    wire_diffraction: bool = True
+
+
+@dataclass(frozen=True)
+class Picture:
+    caption: str
+    die: DieSpec
+    lights: tuple[Light, ...]
+    camera: Camera
+    effects: Effects = Effects()
+    lobe_width: float = 0.02
+    specular_roughness: float = 0.2
+    exposure_stops: float = 0.0
+    look: str = "Medium High Contrast"
+    size: tuple[int, int] = (960, 540)
+    samples: int = 64
+
+
+# The largest group gives the background, the others texture.
+CLUSTERED = (
+    Group("core logic", Kind.LOGIC, Spread(1080, 7), diffraction=Spread(0.5, 0.04), weight=4.0),
+    Group("dense logic", Kind.LOGIC, Spread(960, 14), diffraction=Spread(0.45, 0.05), turned=1.0),
+    Group("cache", Kind.MEMORY, Spread(1190, 6), diffraction=Spread(0.6, 0.03), weight=2.0),
+    Group("register file", Kind.MEMORY, Spread(1000, 10), diffraction=Spread(0.6, 0.04), turned=1.0),
+    Group("analog", Kind.ANALOG, Spread(1270, 12), diffraction=Spread(0.35, 0.04), turned=0.5),
+    Group("pads", Kind.IO, Spread(920, 15), diffraction=Spread(0.4, 0.04)),
+    Group("channel", Kind.STRIP, Spread(1000), diffraction=Spread(0.0)),
+)
+
+# All alike but for the channels, so that a light's strips run through whole.
+ALIKE = tuple(
+    replace(group, diffraction=Spread(0.5), turned=0.0)
+    if group.kind != Kind.STRIP
+    else group
+    for group in with_spacing(CLUSTERED, Spread(1000, 50 / 3))
+)
+
+WHOLE = Camera(position_mm=(-11.1, -24.7, 20.9), target_mm=(0.0, -0.7, 0.0), lens_mm=66)
+NEAR = Camera(position_mm=(-6.4, -21.1, 14.5), target_mm=(-1.2, -0.2, 0.0), lens_mm=66)
+
+KEY = Light("POINT", (6.0, -14.0, 26.0), 110000)
+SPOT = Light("SPOT", (-16.0, -20.0, 16.0), 90000, cone_deg=35)
+LEFT_PAIR = (Light("POINT", (-10.0, -6.0, 14.0), 60000), Light("POINT", (-16.0, -18.0, 20.0), 50000))
+PROCESSOR = DieSpec(CLUSTERED, seed=10)
+SISTER = DieSpec(CLUSTERED, seed=6)
+
+PICTURES = {
+    "grating_one_light": Picture(
+        "Grating only, one point light: clear separate strips of colour, order after order.",
+        DieSpec(ALIKE, seed=10),
+        (Light("POINT", (1.0, -3.0, 9.0), 12000),),
+        WHOLE,
+        Effects(thin_film=False, wire_diffraction=False),
+        lobe_width=0.012,
+    ),
+    "grating_many_lights": Picture(
+        "Grating only, five lights: the strips of all of them lie over one another.",
+        DieSpec(ALIKE, seed=10),
+        (
+            Light("POINT", (1.0, -3.0, 9.0), 5000),
+            Light("POINT", (-9.0, -8.0, 12.0), 9000),
+            Light("POINT", (12.0, -10.0, 16.0), 18000),
+            Light("POINT", (-14.0, 6.0, 14.0), 12000),
+            Light("POINT", (4.0, 9.0, 18.0), 14000),
+        ),
+        WHOLE,
+        Effects(thin_film=False, wire_diffraction=False),
+        lobe_width=0.012,
+    ),
+    "thin_film": Picture(
+        "Thin film only: colours pass into one another softly, with the angle and nothing else.",
+        PROCESSOR,
+        (Light("POINT", (-4.5, 0.4, 10.0), 13000),),
+        WHOLE,
+        Effects(grating=False, wire_diffraction=False),
+    ),
+    "wire_diffraction": Picture(
+        "Diffraction within a wire only: no colour to speak of, as expected.",
+        PROCESSOR,
+        (Light("POINT", (-4.5, 0.4, 10.0), 13000),),
+        WHOLE,
+        Effects(grating=False, thin_film=False),
+    ),
+    "full": Picture(
+        "The full model, one point and one spot light.",
+        PROCESSOR,
+        (KEY, SPOT),
+        WHOLE,
+        lobe_width=0.035,
+        size=(1920, 1080),
+    ),
+    "random_spacing": Picture(
+        "Spacing at random between 800 and 1200 nm: a disordered mess.",
+        replace(SISTER, groups=with_spacing(CLUSTERED, Spread.between(800, 1200))),
+        LEFT_PAIR,
+        NEAR,
+        lobe_width=0.04,
+    ),
+    "narrow_spacing": Picture(
+        "Spacing 1000 nm within 50 everywhere: the blocks vanish, no texture.",
+        DieSpec(ALIKE, seed=6),
+        LEFT_PAIR,
+        NEAR,
+        lobe_width=0.04,
+    ),
+    "clustered_groups": Picture(
+        "Clustered groups: the largest gives the background its colours, the smaller ones texture.",
+        SISTER,
+        LEFT_PAIR,
+        NEAR,
+        lobe_width=0.04,
+    ),
+}

@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The node in the built Blender, as an artist meets it: menu, sockets, files, undo, engines."""
+
+from __future__ import annotations
+
+import math
+import unittest
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote, urlparse
+
+import host
+import numpy as np
+import pixels
+
+# Name, type and default of each input, in order.
+INPUTS: tuple[tuple[str, str, Any], ...] = (
+    ("Color", "RGBA", [1.0, 1.0, 1.0, 1.0]),
+    ("Wire Spacing", "VALUE", 1000.0),
+    ("Wire Width", "VALUE", 250.0),
+    ("Oxide Thickness", "VALUE", 530.0),
+    ("Oxide IOR", "VALUE", 1.544),
+    ("Direction", "VALUE", 0.0),
+    ("Diffraction", "VALUE", 0.5),
+    ("Specular", "VALUE", 0.3),
+    ("Specular Roughness", "VALUE", None),
+    ("Diffuse", "VALUE", 0.0),
+    ("Lobe Width", "VALUE", None),
+    ("Anisotropy", "VALUE", 0.0),
+    ("Normal", "VECTOR", None),
+    ("Tangent", "VECTOR", None),
+)
+
+EFFECTS = ("use_wire_diffraction", "use_grating", "use_thin_film")
+
+# A value of each input that has to look different from the default.
+OTHER_VALUES: dict[str, Any] = {
+    "Color": [1.0, 0.4, 0.2, 1.0],
+    "Wire Spacing": 1300.0,
+    "Wire Width": 400.0,
+    "Oxide Thickness": 400.0,
+    "Oxide IOR": 2.0,
+    "Direction": math.radians(60.0),
+    "Diffraction": 0.8,
+    "Specular": 0.7,
+    "Specular Roughness": 0.5,
+    "Diffuse": 0.4,
+    "Lobe Width": 0.05,
+    "Anisotropy": 2.0,
+    "Normal": [0.2, 0.1, 0.97],
+    "Tangent": [0.6, 0.8, 0.0],
+}
+
+
+class TestCase(unittest.TestCase):
+    """Renders end in a folder of the test's own."""
+
+    folder: Path
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.folder = host.fresh_folder(f"node/{cls.__name__}")
+
+    def inside(self, script: str, parameters: dict[str, Any], **options: Any) -> dict[str, Any]:
+        return host.run_inside(
+            host.built_blender(), script, parameters, folder=self.folder, seconds=180, **options
+        )
+
+    def render(
+        self, variants: dict[str, dict[str, Any]], engine: str = "CYCLES"
+    ) -> dict[str, np.ndarray]:
+        """The pictures of variants (see inside/render_variants.py), by the variants' names."""
+        files = {name: self.folder / f"{engine}.{name}.exr" for name in variants}
+        jobs = [variant | {"exr": str(files[name])} for name, variant in variants.items()]
+        ended = self.inside("render_variants", {"engine": engine, "variants": jobs}, screen=True)
+        self.assertNotRegex(ended["output"], r"(?i)\berror\b", "an error was printed")
+        pictures = {name: pixels.read(file) for name, file in files.items()}
+        for name, picture in pictures.items():
+            self.assertTrue(np.isfinite(picture).all(), name)
+            self.assertGreaterEqual(float(picture.min()), 0.0, name)
+            self.assertGreater(float(picture.mean()), 1e-3, f"{engine}, {name}: black")
+        return pictures
+
+
+class Facts(TestCase):
+    """Names, sockets, menu and help."""
+
+    facts: dict[str, Any]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        cls.facts = host.run_inside(
+            host.built_blender(), "node_facts", {}, folder=cls.folder, seconds=60
+        )
+
+    def test_name(self) -> None:
+        self.assertEqual(self.facts["label"], "IC Wafer BSDF")
+        self.assertEqual(self.facts["name"], "IC Wafer BSDF")
+        self.assertIn("wafer", self.facts["description"])
+
+    def test_inputs(self) -> None:
+        found = self.facts["inputs"]
+        self.assertEqual([(i["name"], i["type"]) for i in found], [i[:2] for i in INPUTS])
+        for socket, (name, _, default) in zip(found, INPUTS, strict=True):
+            if default is not None:
+                np.testing.assert_allclose(socket["default"], default, rtol=1e-6, err_msg=name)
+
+    def test_output(self) -> None:
+        self.assertEqual(self.facts["outputs"], [["BSDF", "SHADER"]])
+
+    def test_properties(self) -> None:
+        properties, values = self.facts["properties"], self.facts["values"]
+        self.assertEqual(set(properties), {"model", *EFFECTS})
+        self.assertEqual(values, {"model": "CS348B"} | dict.fromkeys(EFFECTS, True))
+        for name, prop in properties.items():
+            self.assertGreater(len(prop["tooltip"]), 20, name)
+        for item, tooltip in properties["model"]["items"].items():
+            self.assertGreater(len(tooltip), 20, item)
+
+    def test_menu(self) -> None:
+        self.assertEqual(self.facts["menu"], [["Shader", "IC Wafer BSDF"]])
+
+    def test_help(self) -> None:
+        """F1 opens a page about this node, which is part of the installation."""
+        page = urlparse(self.facts["help"])
+        self.assertEqual(page.scheme, "file", self.facts["help"])
+        text = Path(unquote(page.path)).read_text()
+        for name, _, _ in INPUTS:
+            self.assertIn(name, text)
+
+
+class Files(TestCase):
+    """Nothing of the node is lost in a file."""
+
+    def state(self, blender: Path, **parameters: Any) -> dict[str, Any]:
+        given = {"open": None, "save": None, "copy": False} | parameters
+        return host.run_inside(blender, "node_file", given, folder=self.folder, seconds=60)
+
+    def test_save_load_copy_and_stock_blender(self) -> None:
+        built, stock = host.built_blender(), host.stock_blender()
+        ours, theirs = str(self.folder / "ours.blend"), str(self.folder / "theirs.blend")
+
+        saved = self.state(built, save=ours)["state"]
+        self.assertEqual(saved["inputs"]["Wire Width"], 0.25, "the test changed nothing")
+        self.assertEqual(set(saved["links"]), {"Normal", "Tangent", "Wire Spacing"})
+        self.assertEqual(saved["properties"]["use_thin_film"], False)
+
+        with self.subTest("load"):
+            self.assertEqual(self.state(built, open=ours)["state"], saved)
+        with self.subTest("copy of the material"):
+            self.assertEqual(self.state(built, open=ours, copy=True)["state"], saved)
+        with self.subTest("stock Blender opens and saves it"):
+            there = self.state(stock, open=ours, save=theirs)
+            self.assertFalse(there["known"], "the reference knows the node")
+            self.assertEqual(there["state"]["inputs"], saved["inputs"])
+            self.assertEqual(there["state"]["links"], saved["links"])
+        with self.subTest("back from stock Blender"):
+            self.assertEqual(self.state(built, open=theirs)["state"], saved)
+
+
+class Window(TestCase):
+    """Work in the shader editor, and what the viewport shows."""
+
+    png: dict[str, Path]
+    facts: dict[str, Any]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        cls.png = {shading: cls.folder / f"{shading}.png" for shading in ("SOLID", "MATERIAL")}
+        cls.facts = host.run_inside(
+            host.built_blender(),
+            "window_edit",
+            {"png": {shading: str(path) for shading, path in cls.png.items()}},
+            folder=cls.folder,
+            seconds=120,
+            window=True,
+        )
+
+    def test_search(self) -> None:
+        self.assertEqual(self.facts["search"], ["IC Wafer BSDF"])
+
+    def test_undo(self) -> None:
+        first, second = [1000.0, True], [777.0, False]
+        self.assertEqual(self.facts["changed"], [first, second])
+        self.assertEqual(self.facts["undone"], [first, first])
+        self.assertEqual(self.facts["undone twice"], [first])
+        self.assertEqual(self.facts["redone"], [first, second])
+
+    def test_copy_and_paste(self) -> None:
+        pasted = self.facts["pasted"]
+        self.assertEqual(sorted(pasted), sorted(2 * [[1000.0, True], [777.0, False]]))
+
+    def test_viewport(self) -> None:
+        """Solid view and material preview show a surface, and no error of OpenGL is printed."""
+        self.assertNotRegex(self.facts["output"], r"(?i)shader.*(error|fail)")
+        for shading, path in self.png.items():
+            with self.subTest(shading):
+                middle = pixels.read(path)[32:64, 32:64]
+                self.assertGreater(float(middle.mean()), 0.05)
+                red, green, blue = middle.mean(axis=(0, 1))
+                self.assertFalse(red > 0.9 and green < 0.1 and blue > 0.9, "magenta: no shader")
+
+
+class Renders(TestCase):
+    """What the node renders in each engine."""
+
+    def test_new_node_shows_colours(self) -> None:
+        """On a plane under a lamp, with nothing changed: bright and of many hues."""
+        picture = self.render({"new": {}})["new"]
+        bright = picture[picture.max(axis=2) > 0.1 * picture.max()]
+        self.assertGreater(len(bright), 0.1 * picture.shape[0] * picture.shape[1])
+        strongest = np.bincount(bright.argmax(axis=1), minlength=3) / len(bright)
+        for channel, share in zip(("red", "green", "blue"), strongest, strict=True):
+            self.assertGreater(share, 0.1, f"hardly anything is mostly {channel}")
+        saturation = 1.0 - bright.min(axis=1) / bright.max(axis=1)
+        self.assertGreater(float(np.median(saturation)), 0.3)
+
+    def test_every_input_acts_and_links(self) -> None:
+        """Another value changes the picture, and the same value through a link does the same."""
+        variants: dict[str, dict[str, Any]] = {"default": {}}
+        for name, value in OTHER_VALUES.items():
+            variants[f"{name} linked"] = {"inputs": {name: value}, "linked": [name]}
+            if name not in ("Normal", "Tangent"):
+                variants[name] = {"inputs": {name: value}}
+        pictures = self.render(variants)
+        default = pictures["default"]
+        for name in OTHER_VALUES:
+            with self.subTest(name):
+                linked = pictures[f"{name} linked"]
+                change = np.abs(linked - default).mean() / default.mean()
+                self.assertGreater(float(change), 0.02, "the picture did not change")
+                if name in pictures:
+                    np.testing.assert_allclose(linked, pictures[name], rtol=1e-5, atol=1e-6)
+
+    def test_every_effect_acts(self) -> None:
+        variants: dict[str, dict[str, Any]] = {"all": {}}
+        variants |= {effect: {"properties": {effect: False}} for effect in EFFECTS}
+        pictures = self.render(variants)
+        for effect in EFFECTS:
+            with self.subTest(effect):
+                change = np.abs(pictures[effect] - pictures["all"]).mean() / pictures["all"].mean()
+                self.assertGreater(float(change), 0.02, "switching it off changed nothing")
+
+    def test_other_engines(self) -> None:
+        """EEVEE and Workbench: a glossy stand-in, with everything linked and nothing linked."""
+        everything = {"inputs": OTHER_VALUES, "linked": list(OTHER_VALUES)}
+        switched = {"properties": dict.fromkeys(EFFECTS, False)}
+        for engine in ("BLENDER_EEVEE", "BLENDER_WORKBENCH"):
+            with self.subTest(engine):
+                pictures = self.render({"new": {}, "all": everything, "off": switched}, engine)
+                if engine == "BLENDER_EEVEE":
+                    self.assertGreater(float(np.ptp(pictures["new"])), 0.05, "no highlight")
+
+
+class Extremes(TestCase):
+    """Whatever a texture feeds the node, light stays light."""
+
+    SIDE = 64
+    ABSURD = (0.0, -1.0, 1e-30, 1e-6, 1.0, 1e9, -1e9, 3e38, math.inf, -math.inf, math.nan)
+
+    def picture(
+        self, name: str, inputs: dict[str, float], attributes: dict[str, Any]
+    ) -> np.ndarray:
+        exr = self.folder / f"{name}.exr"
+        given = {"side": self.SIDE, "inputs": inputs, "attributes": attributes, "exr": str(exr)}
+        self.inside("render_extremes", given)
+        return pixels.read(exr)
+
+    def test_absurd_values(self) -> None:
+        """Cycles would hide a NaN as black; under a lamp of no size the matt part is always there.
+
+        So each pixel has to be at least as bright as with the matt part alone. Each square has its
+        own choice: half of the inputs as they are, half absurd.
+        """
+        generator = np.random.default_rng(348)
+        squares = self.SIDE**2
+        absurd = {}
+        for name, kind, _ in INPUTS:
+            if kind == "VALUE" and name != "Diffuse":
+                # What the default is does not matter here: a value in the middle of its range.
+                usual = {"Wire Spacing": 1000.0, "Wire Width": 250.0, "Oxide Thickness": 530.0}
+                choice = generator.choice(self.ABSURD, squares)
+                as_it_is = generator.random(squares) < 0.5
+                absurd[name] = np.where(as_it_is, usual.get(name, 0.5), choice).tolist()
+
+        matt = {"Diffuse": 0.5, "Diffraction": 0.0, "Specular": 0.0}
+        alone = self.picture("matt", matt, {})
+        found = self.picture("absurd", {"Diffuse": 0.5}, absurd)
+        self.assertGreater(float(alone.min()), 1e-3)
+        self.assertTrue(np.isfinite(found).all())
+        dark = np.argwhere((found < 0.999 * alone).any(axis=2))
+        # Squares are counted from the bottom of the picture.
+        numbers = [(self.SIDE - 1 - row) * self.SIDE + column for row, column in dark]
+        first = [{name: values[n] for name, values in absurd.items()} for n in numbers[:3]]
+        self.assertEqual(first, [], f"{len(dark)} squares lost light; the first of them")
+
+
+if __name__ == "__main__":
+    unittest.main()
