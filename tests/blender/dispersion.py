@@ -23,6 +23,9 @@ XYZ_TO_REC709 = np.array(
     [[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]]
 )
 
+# The orders that reach into the bands of the orders whose peaks are looked for, and some more.
+ORDERS = range(-5, 6)
+
 Vector = tuple[float, float, float]
 
 
@@ -119,17 +122,19 @@ def reflectance(mount: Mount, u: np.ndarray) -> np.ndarray:
     """
     wavelength_nm, sensitivity = sensitivities()
     step = wavelength_nm / mount.spacing_nm
-    orders = np.arange(-8, 9)
-    away = (u[..., None, None] - orders[:, None] * step) / mount.lobe_width
-    return (np.exp(-0.5 * away**2).sum(axis=-2) * step) @ sensitivity
+    lobes = np.zeros((u.size, step.size))
+    for order in ORDERS:
+        lobes += np.exp(-0.5 * ((u[:, None] - order * step) / mount.lobe_width) ** 2)
+    return (lobes * step) @ sensitivity
 
 
+@cache
 def picture(mount: Mount) -> np.ndarray:
-    """What Cycles should render, up to a factor: size x size x 3."""
+    """What Cycles should render, up to a factor and up to order 5: size x size x 3."""
     row, column = np.mgrid[: mount.size_px, : mount.size_px].astype(float)
     u, _, irradiance = deflection(mount, column, row)
     # It depends on u alone: computed where needed it would take minutes.
-    grid = np.arange(u.min(), u.max() + 0.01, 0.25 * mount.lobe_width)
+    grid = np.arange(u.min(), u.max() + 0.01, 0.5 * mount.lobe_width)
     table = reflectance(mount, grid)
     channels = [np.interp(u, grid, channel) for channel in table.T]
     return np.stack(channels, axis=-1) * irradiance[..., None]
@@ -163,8 +168,8 @@ def dispersion_line(mount: Mount, v: float) -> tuple[np.ndarray, np.ndarray, np.
     sides = []
     for sign in (-1.0, 1.0):
         side = [centre]
-        # Lamps are about a metre away, so this is about half a pixel near the mirror direction.
-        step = sign * 0.5 * mount.view / mount.size_px / float(np.linalg.norm(mount.camera))
+        # Lamps are about a metre away, so this is about a pixel near the mirror direction.
+        step = sign * mount.view / mount.size_px / float(np.linalg.norm(mount.camera))
         while _inside(mount, side[-1]):
             side.append(_solve(mount, len(side) * step, v, side[-1]))
         sides.append(side[:-1])

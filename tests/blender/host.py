@@ -5,8 +5,8 @@ Two Blenders take part: the built one, with the node, and the stock one, Debian'
 the same version, which is the reference for everything that the node must not change. A program
 that is missing fails the test with a line that says how to get it; nothing is skipped.
 
-Scripts that run inside Blender stand in `inside/`. They get their parameters as one JSON object
-after `--`, and answer with one JSON object in a file (see `inside/exchange.py`).
+Scripts that run inside Blender stand in `inside/`. They get their parameters as one JSON object in
+a file, whose name follows `--`, and answer with one in another file (see `inside/exchange.py`).
 """
 
 from __future__ import annotations
@@ -187,8 +187,10 @@ def run_inside(
     script that ends with an error, or without a report, is an AssertionError with its last lines.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    report = folder / f"{script}.json"
+    given = folder / f"{script}.parameters.json"
+    report = folder / f"{script}.report.json"
     report.unlink(missing_ok=True)
+    given.write_text(json.dumps(parameters | {"report": str(report)}))
     ended = run(
         blender,
         *([] if window else ["--background"]),
@@ -196,7 +198,7 @@ def run_inside(
         "--python-exit-code", "1",
         "--python-expr", f"import sys; sys.path.insert(0, {str(INSIDE)!r})",
         "--python", INSIDE / f"{script}.py",
-        "--", json.dumps(parameters | {"report": str(report)}),
+        "--", given,
         folder=folder,
         seconds=seconds,
         screen=screen or window,

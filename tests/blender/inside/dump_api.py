@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Report all that Blender's Python API shows, one line for each thing."""
+"""Report all that Blender's Python API shows, one line each, and with which parts it is built."""
 
 from __future__ import annotations
 
@@ -45,9 +45,13 @@ def all_structs() -> Iterator[bpy.types.Struct]:
             yield getattr(getattr(bpy.ops, module), operator).get_rna_type()
 
 
+options = bpy.app.build_options
 report(
     {
         "api": sorted({line for struct in all_structs() for line in describe_struct(struct)}),
         "manual": [f"{path} -> {page}" for path, page in rna_manual_reference.url_manual_mapping],
+        "parts": {
+            n: getattr(options, n) for n in dir(options) if type(getattr(options, n)) is bool
+        },
     }
 )

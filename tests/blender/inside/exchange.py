@@ -10,8 +10,8 @@ from typing import Any
 
 
 def parameters() -> dict[str, Any]:
-    """What the test passed: the JSON object after `--`."""
-    return json.loads(sys.argv[sys.argv.index("--") + 1])
+    """What the test passed: the JSON object in the file whose name follows `--`."""
+    return json.loads(Path(sys.argv[sys.argv.index("--") + 1]).read_text())
 
 
 def report(facts: dict[str, Any]) -> None:
