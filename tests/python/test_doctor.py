@@ -39,7 +39,7 @@ class DoctorTest(CommandCase):
         self.expect(doctor.check_packages("packages", "test"), "all 2", "")
 
     def test_space(self) -> None:
-        self.replace(build, free_gb=lambda folder: 2.5)
+        self.replace(build, free_gb=lambda folder: 1.5)
         self.expect(doctor.check_space(), "free", "make room")
         write(layout.BLENDER, "")
         self.expect(doctor.check_space(), "free", "")

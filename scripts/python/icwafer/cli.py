@@ -70,9 +70,9 @@ def _doctor(_: argparse.Namespace) -> int:
 
 
 def _test(arguments: list[str]) -> int:
+    packages.install("base", "core", "host", "test")  # at once, so that root is asked for once
     build.build("core")
     build.build("blender")
-    packages.install("test")
     return subprocess.run(
         ["ctest", "--preset", "core", *arguments], cwd=layout.REPOSITORY
     ).returncode

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import logging
+import shutil
 from pathlib import Path
 
 from icwafer import layout, progress
@@ -57,7 +58,7 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
     )
     for path in finished:
         unfinished.with_suffix(path.suffix).replace(path)
-    unfinished.parent.rmdir()
+    shutil.rmtree(unfinished.parent)
     return finished
 
 

@@ -182,7 +182,7 @@ def _download(folder: Path) -> None:
     )
     version, sums = newest_record(records.stdout, layout.host_version())
     if not version:
-        complaints = [line for line in text.splitlines() if line.startswith(("E:", "W:", "Err:"))]
+        complaints = [line for line in text.splitlines() if line.startswith(("E:", "W:"))]
         reason = complaints[0] if complaints else f"the index has no {PACKAGE}"
         raise IcwaferError(
             f"no source package of Blender {layout.host_version()}: {reason}; {advice}, or name a "
