@@ -15,6 +15,7 @@ The edits are data: `edits.toml` in a folder per host version.
     anchor = "exact text"     # one or several lines; found exactly once in the unedited file
     place = "after"           # "before", "after" or "replace"
     text = "whole lines"
+    unless = "exact text"     # optional: a file in which this occurs does not need the edit
 
 "after" adds whole lines below the line in which the anchor ends, "before" above the line in which
 it begins. "replace" puts `text` exactly where the anchor was; a last newline of `text` counts only
@@ -66,6 +67,7 @@ class Edit:
     anchor: bytes
     place: str
     text: bytes
+    unless: bytes | None = None
 
 
 @dataclass(frozen=True)
@@ -173,7 +175,7 @@ def _added_files(repository: Path, origin: str, target: str, source: Path) -> di
 
 
 def _read_edit(item: dict[str, str], source: Path) -> Edit:
-    _expect_keys(item, {"file", "anchor", "place", "text"}, set(), f"{source}: [[edit]]")
+    _expect_keys(item, {"file", "anchor", "place", "text"}, {"unless"}, f"{source}: [[edit]]")
     if item["place"] not in ("before", "after", "replace"):
         raise HostEditError(
             f"{source}: {item['file']}: place '{item['place']}' is none of before, after, replace"
@@ -181,7 +183,11 @@ def _read_edit(item: dict[str, str], source: Path) -> Edit:
     if not item["anchor"].strip():
         raise HostEditError(f"{source}: {item['file']}: the anchor is empty")
     file = _inside(item["file"], source)
-    return Edit(file, item["anchor"].encode(), item["place"], item["text"].encode())
+    unless = item.get("unless")
+    return Edit(
+        file, item["anchor"].encode(), item["place"], item["text"].encode(),
+        unless.encode() if unless else None,
+    )  # fmt: skip
 
 
 def tree_version(tree: Path) -> str:
@@ -204,8 +210,9 @@ def tree_version(tree: Path) -> str:
 
 def edited_text(original: bytes, edits: list[Edit], source: Path) -> bytes:
     """The file with all its edits; each anchor must occur exactly once, and none may overlap."""
+    needed = (edit for edit in edits if edit.unless is None or edit.unless not in original)
     replacements = sorted(
-        (_replacement(original, edit, source) for edit in edits), key=lambda item: item[:2]
+        (_replacement(original, edit, source) for edit in needed), key=lambda item: item[:2]
     )
     pieces: list[bytes] = []
     done = 0

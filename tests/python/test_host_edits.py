@@ -149,6 +149,14 @@ class ApplyTest(HostEditsTest):
         self.apply()
         self.assertIn("#define x\n", (self.tree / NODE_HEADER).read_text())
 
+    def test_an_edit_that_a_tree_does_not_need(self) -> None:
+        edit = f'\n[[edit]]\nfile = "{TYPES}"\nanchor = "LEGACY"\nplace = "replace"\ntext = "x"\n'
+        self.write_edits(EDITS + edit + 'unless = "  A,"\n')
+        self.apply()
+        self.assertNotIn("x", (self.tree / TYPES).read_text())
+        self.write_edits(EDITS + edit + 'unless = "not there"\n')
+        self.expect_refusal(TYPES, "LEGACY", "0 times")
+
     def test_edits_at_one_place_keep_their_order(self) -> None:
         for letter in "PQ":
             self.write_edits(

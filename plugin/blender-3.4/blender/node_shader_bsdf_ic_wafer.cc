@@ -91,7 +91,8 @@ void register_node_type_sh_bsdf_ic_wafer()
   sh_node_type_base(&ntype, SH_NODE_BSDF_IC_WAFER, "IC Wafer BSDF", NODE_CLASS_SHADER);
   ntype.declare = file_ns::node_declare;
   ntype.draw_buttons = file_ns::node_draw_buttons;
-  node_type_size_preset(&ntype, NODE_SIZE_MIDDLE);
+  /* Wide enough for the longest name of an input beside its value. */
+  node_type_size(&ntype, 200, 150, 700);
   node_type_init(&ntype, file_ns::node_init);
   node_type_gpu(&ntype, file_ns::node_gpu);
 

@@ -63,7 +63,7 @@ ccl_device_inline float3 bsdf_ic_wafer_tangent(const float3 N,
     float3 bitangent;
     make_orthonormals(N, &T, &bitangent);
   }
-  return rotate_around_axis(normalize(T), N, direction_rad);
+  return rotate_around_axis(normalize(T), N, isfinite_safe(direction_rad) ? direction_rad : 0.0f);
 }
 
 ccl_device int bsdf_ic_wafer_setup(ccl_private IcWaferBsdf *bsdf, const float3 I)
