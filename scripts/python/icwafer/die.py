@@ -61,10 +61,15 @@ class Group:
 
 @dataclass(frozen=True)
 class DieSpec:
-    """All that a die is made from: the same description gives the same bytes."""
+    """All that a die is made from: the same description gives the same bytes.
+
+    copies_alike: whether copies of a core, and the rows of a memory, have the same wires, as on a
+    real chip; else every block is drawn for itself.
+    """
 
     groups: tuple[Group, ...]
     seed: int = 1
+    copies_alike: bool = True
     width_mm: float = 15.0
     height_mm: float = 9.6
 
@@ -110,8 +115,8 @@ def generate(spec: DieSpec) -> Die:
     strips = _groups_of(spec, Kind.STRIP)[0][0]
     group = np.where(plan.kind == Kind.STRIP, strips, group_of_macro[plan.macro]).astype(np.int32)
 
-    # Values are drawn once for each cell, so that copies of a core look alike.
-    _, first, inverse = np.unique(plan.cell, return_index=True, return_inverse=True)
+    cell = plan.cell if spec.copies_alike else np.arange(len(plan))
+    _, first, inverse = np.unique(cell, return_index=True, return_inverse=True)
     values = _draw(rng, spec.groups, group[first])
     return Die(spec, plan.rect_nm, group, **{name: v[inverse] for name, v in values.items()})
 
