@@ -7,7 +7,7 @@ z = 0 with its centre at the origin.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from icwafer.die import DieSpec, Group, Spread, with_spacing
 from icwafer.floorplan import Kind
@@ -36,6 +36,8 @@ class Light:
 
 @dataclass(frozen=True)
 class Camera:
+    """A camera with a sensor 36 mm wide, upright."""
+
     position_mm: Vector
     target_mm: Vector
     lens_mm: float = 50.0
@@ -52,6 +54,11 @@ class Effects:
 
 @dataclass(frozen=True)
 class Picture:
+    """One picture: `caption` says what it shows, `lobe_width` is the node's socket.
+
+    look: of Blender's Filmic view transform. size: width and height in pixels.
+    """
+
     caption: str
     die: DieSpec
     lights: tuple[Light, ...]
@@ -59,7 +66,6 @@ class Picture:
     effects: Effects = Effects()
     lobe_width: float = 0.02
     specular_roughness: float = 0.15
-    exposure_stops: float = 0.0
     look: str = "Medium High Contrast"
     size: tuple[int, int] = (960, 540)
     samples: int = 48
@@ -70,7 +76,9 @@ CLUSTERED = (
     Group("core logic", Kind.LOGIC, Spread(1080, 7), diffraction=Spread(0.5, 0.04), weight=4.0),
     Group("dense logic", Kind.LOGIC, Spread(960, 14), diffraction=Spread(0.4, 0.05), turned=1.0),
     Group("cache", Kind.MEMORY, Spread(1190, 6), diffraction=Spread(0.6, 0.03), weight=2.0),
-    Group("register file", Kind.MEMORY, Spread(1000, 10), diffraction=Spread(0.4, 0.04), turned=1.0),
+    Group(
+        "register file", Kind.MEMORY, Spread(1000, 10), diffraction=Spread(0.4, 0.04), turned=1.0
+    ),
     Group("analog", Kind.ANALOG, Spread(1270, 12), diffraction=Spread(0.35, 0.04), turned=0.5),
     Group("pads", Kind.IO, Spread(920, 15), diffraction=Spread(0.4, 0.04)),
     Group("channel", Kind.STRIP, Spread(1000), diffraction=Spread(0.0)),
@@ -83,11 +91,15 @@ EVEN = tuple(
 )
 
 WHOLE = Camera(position_mm=(-11.1, -24.7, 20.9), target_mm=(0.0, -0.7, 0.0), lens_mm=66)
-NEAR = Camera(position_mm=(-6.4, -21.1, 14.5), target_mm=(-1.2, -0.2, 0.0), lens_mm=66)
+NEAR = Camera(position_mm=(-6.4, -21.1, 14.5), target_mm=(-1.1, -0.55, 0.0), lens_mm=66)
 
 KEY = Light("POINT", (6.0, -14.0, 26.0), 60000)
 SPOT = Light("SPOT", (-16.0, -20.0, 16.0), 50000, cone_deg=35)
-LEFT_PAIR = (Light("POINT", (-10.0, -6.0, 14.0), 26000), Light("POINT", (-16.0, -18.0, 20.0), 22000))
+LEFT_PAIR = (
+    Light("POINT", (-10.0, -6.0, 14.0), 26000),
+    Light("POINT", (-16.0, -18.0, 20.0), 22000),
+)
+
 PROCESSOR = DieSpec(CLUSTERED, seed=17)
 GRATING = DieSpec(with_spacing(EVEN, Spread(1000, 4)), seed=17)
 SISTER = DieSpec(CLUSTERED, seed=6)
@@ -116,14 +128,14 @@ PICTURES = {
     "thin_film": Picture(
         "Thin film only: colours pass into one another softly, with the angle and nothing else.",
         PROCESSOR,
-        (Light("POINT", (-4.5, 0.4, 10.0), 4200),),
+        (Light("POINT", (-4.5, 0.4, 10.0), 5200),),
         WHOLE,
         Effects(grating=False, wire_diffraction=False),
     ),
     "wire_diffraction": Picture(
         "Diffraction within a wire only: no colour to speak of, as expected.",
         PROCESSOR,
-        (Light("POINT", (-4.5, 0.4, 10.0), 4200),),
+        (Light("POINT", (-4.5, 0.4, 10.0), 5200),),
         WHOLE,
         Effects(grating=False, thin_film=False),
     ),
@@ -134,6 +146,7 @@ PICTURES = {
         WHOLE,
         lobe_width=0.035,
         size=(1920, 1080),
+        samples=32,
     ),
     "random_spacing": Picture(
         "Spacing at random between 800 and 1200 nm: a disordered mess.",
@@ -143,14 +156,14 @@ PICTURES = {
         lobe_width=0.04,
     ),
     "narrow_spacing": Picture(
-        "Spacing 1000 nm within 50 everywhere: the blocks vanish, no texture.",
+        "Spacing 1000 nm within 50 everywhere: the blocks all but vanish, no texture.",
         DieSpec(with_spacing(EVEN, Spread(1000, 50 / 3)), seed=6),
         LEFT_PAIR,
         NEAR,
         lobe_width=0.04,
     ),
     "clustered_groups": Picture(
-        "Clustered groups: the largest gives the background its colours, the smaller ones texture.",
+        "Clustered groups: the largest gives the background colours, the smaller ones texture.",
         SISTER,
         LEFT_PAIR,
         NEAR,
