@@ -73,8 +73,8 @@ def hues(image: np.ndarray) -> int:
 def texture(image: np.ndarray) -> float:
     """How much colour differs from one place to the next beyond what a smooth run explains.
 
-    Mean size of the second difference of the chromaticity across 4 pixels, about a block, both ways,
-    where all three places are lit.
+    Mean size of the second difference of the chromaticity across 4 pixels, about a block, both
+    ways, where all three places are lit.
     """
     mask = lit(image)
     total = np.maximum(image.sum(axis=-1, keepdims=True), 1e-9)
@@ -139,7 +139,7 @@ class Pictures(unittest.TestCase):
     def test_film_colours_are_softer_than_those_of_the_grating(self) -> None:
         film, grating = self.linear["thin_film"], self.linear["grating_one_light"]
         self.assertGreater(saturation(film), 0.1)
-        self.assertLess(saturation(film), 0.6 * saturation(grating))
+        self.assertLess(saturation(film), 0.8 * saturation(grating))
         self.assertLess(texture(film), 0.5 * texture(grating))
 
     def test_diffraction_within_a_wire_has_hardly_any_colour(self) -> None:
@@ -157,6 +157,15 @@ class Pictures(unittest.TestCase):
         )
         self.assertGreater(mess, 1.3 * groups)
         self.assertGreater(groups, 1.5 * smooth)
+
+    def test_the_committed_pictures_are_these(self) -> None:
+        # Three pixels of a committed picture are one here. What the wider pixel filter does to
+        # lines of one pixel comes to 0.01 to 0.03; a die of another seed to 0.08.
+        for name, image in self.shown.items():
+            with self.subTest(name):
+                committed = read(ROOT / "blend_assets" / "pictures" / f"{name}.png")
+                small = committed.reshape(SIZE[1], 3, SIZE[0], 3, 3).mean(axis=(1, 3))
+                self.assertLess(np.abs(small - image).mean(), 0.05)
 
     def test_rendering_again_gives_the_same_pixels(self) -> None:
         np.testing.assert_array_equal(self.linear["full"], self.again)

@@ -34,7 +34,8 @@ def build(picture: Picture) -> bpy.types.Scene:
     """
     if not hasattr(bpy.types, NODE):
         raise IcwaferError(
-            "this Blender has no IC Wafer BSDF node: build one with `scripts/icwafer build blender`"
+            "this Blender has no IC Wafer BSDF node: build one that has, "
+            "with scripts/icwafer build blender"
         )
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -50,7 +51,7 @@ def build(picture: Picture) -> bpy.types.Scene:
 
 
 def die_mesh(die: Die) -> bpy.types.Mesh:
-    """One face per block in the plane z = 0, in mm around the origin, with the wires as attributes.
+    """One face per block in the plane z = 0, in mm around the origin; attributes hold the wires.
 
     The faces leave gaps between them, at most a fifth of a block on each side.
     """
@@ -128,7 +129,8 @@ def _aimed(
 ) -> bpy.types.Object:
     """Puts a lamp or camera at a place and turns its axis (its local -Z) to a target."""
     thing.location = position_mm
-    thing.rotation_euler = (Vector(target_mm) - Vector(position_mm)).to_track_quat("-Z", "Y").to_euler()
+    axis = Vector(target_mm) - Vector(position_mm)
+    thing.rotation_euler = axis.to_track_quat("-Z", "Y").to_euler()
     return thing
 
 
@@ -145,8 +147,8 @@ def _prepare_render(scene: bpy.types.Scene, picture: Picture) -> None:
     scene.cycles.max_bounces = 0
     scene.render.resolution_x, scene.render.resolution_y = picture.size
     scene.render.resolution_percentage = 100
+    scene.render.dither_intensity = 0.0  # black stays black
     # The colours of a grating are so saturated that the plain curve clips them one channel after
     # the other, and the bands turn into flat stripes; Filmic lets them run into white softly.
     scene.view_settings.view_transform = "Filmic"
     scene.view_settings.look = picture.look
-    scene.view_settings.exposure = picture.exposure_stops

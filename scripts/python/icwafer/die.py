@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A die: the blocks of a floorplan, each with the wires of the group that it belongs to.
 
-The spread of the groups decides what a die looks like. Where one group covers most of it, that group
-gives the background colour and the smaller groups give texture; one wide spread for all blocks gives
-a disordered mess, one narrow spread no texture at all.
+The spread of the groups decides what a die looks like. Where one group covers most of it, that
+group gives the background colour and the smaller groups give texture; one wide spread for all
+blocks gives a disordered mess, one narrow spread no texture at all.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Spread:
 
     @classmethod
     def between(cls, low: float, high: float) -> Spread:
-        """Every value from `low` to `high` alike; the deviation of such a spread is width / sqrt(12)."""
+        """Every value from `low` to `high` alike; its deviation is (high - low) / sqrt(12)."""
         return cls((low + high) / 2, (high - low) / 12**0.5, uniform=True)
 
     def draw(self, rng: np.random.Generator, count: int) -> np.ndarray:
@@ -46,7 +46,7 @@ class Group:
     weight: how many of the macros of this kind belong to the group, relative to its other groups.
     spacing_nm, width_nm, oxide_nm: the node's sockets of these names, > 0.
     diffraction: strength of the diffracted light, 0 to 1.
-    turned: share of the blocks whose wires run along y (90 degrees); those of the rest run along x.
+    turned: share of the blocks whose wires run along y (90 degrees); the rest's run along x.
     """
 
     name: str
@@ -61,10 +61,15 @@ class Group:
 
 @dataclass(frozen=True)
 class DieSpec:
-    """All that a die is made from: the same description gives the same bytes."""
+    """All that a die is made from: the same description gives the same bytes.
+
+    copies_alike: whether copies of a core, and the rows of a memory, have the same wires, as on a
+    real chip; else every block is drawn for itself.
+    """
 
     groups: tuple[Group, ...]
     seed: int = 1
+    copies_alike: bool = True
     width_mm: float = 15.0
     height_mm: float = 9.6
 
@@ -93,7 +98,7 @@ class Die:
     @property
     def area_nm2(self) -> np.ndarray:
         """(n,) int64, exact."""
-        return (self.rect_nm[:, 2] - self.rect_nm[:, 0]) * (self.rect_nm[:, 3] - self.rect_nm[:, 1])
+        return (self.rect_nm[:, 2:] - self.rect_nm[:, :2]).prod(axis=1)
 
 
 def generate(spec: DieSpec) -> Die:
@@ -110,8 +115,8 @@ def generate(spec: DieSpec) -> Die:
     strips = _groups_of(spec, Kind.STRIP)[0][0]
     group = np.where(plan.kind == Kind.STRIP, strips, group_of_macro[plan.macro]).astype(np.int32)
 
-    # Values are drawn once for each cell, so that copies of a core look alike.
-    _, first, inverse = np.unique(plan.cell, return_index=True, return_inverse=True)
+    cell = plan.cell if spec.copies_alike else np.arange(len(plan))
+    _, first, inverse = np.unique(cell, return_index=True, return_inverse=True)
     values = _draw(rng, spec.groups, group[first])
     return Die(spec, plan.rect_nm, group, **{name: v[inverse] for name, v in values.items()})
 
@@ -159,7 +164,7 @@ def _main_kind_of_each_macro(macro: np.ndarray, kind: np.ndarray) -> np.ndarray:
 def _deal(
     rng: np.random.Generator, groups: Sequence[tuple[int, float]], count: int
 ) -> np.ndarray:
-    """`count` group indices in random order, each group with its share to the nearest whole one."""
+    """`count` group indices in random order; each group gets its share to the nearest one."""
     indices, weights = np.array([i for i, _ in groups]), np.cumsum([w for _, w in groups])
     dealt = indices[np.searchsorted(weights, (np.arange(count) + 0.5) / count * weights[-1])]
     return rng.permutation(dealt)

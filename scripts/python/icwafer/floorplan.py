@@ -2,8 +2,8 @@
 """The floorplan of a processor: where the blocks of a die lie and what kind each one is.
 
 A die is cut into regions (a ring of pads, processor cores around a shared cache, an array of
-graphics tiles, memory interfaces, the rest), a region into macros, and a macro into blocks. Like on
-a real chip the cores are mirrored copies of one core and the graphics tiles copies of one tile.
+graphics tiles, memory interfaces, the rest), a region into macros, and a macro into blocks. Like
+on a real chip the cores are mirrored copies of one core and the graphics tiles copies of one tile.
 
 All coordinates are whole nanometres, and every cut goes through a whole number, so that neighbours
 share their edges exactly: no overlap, no gap, and areas add up without any tolerance.
@@ -106,8 +106,8 @@ def _macros(
 ) -> Plan:
     """Cuts a region into macros of about the given area and fills each after its kind.
 
-    Every kind gets its share of the macros, to the nearest whole one, in random order: drawing each
-    macro for itself would leave whole regions without memory for some seeds.
+    Every kind gets its share of the macros, to the nearest whole one, in random order: drawing
+    each macro for itself would leave whole regions without memory for some seeds.
     """
     rects = _slice(rng, rect, area_mm2, max_aspect=2.5)
     bounds = np.round(np.cumsum(list(shares.values())) * len(rects))
@@ -177,8 +177,11 @@ def _slice(
     width, height = _length(rect, 0), _length(rect, 1)
     if width * height < area_mm2 * MM * MM * rng.uniform(0.7, 2.0):
         return [rect]
-    wide = width / height
-    axis = int(wide < 1) if max(wide, 1 / wide) > max_aspect else int(rng.random() * (1 + wide) > wide)
+    aspect = width / height
+    if max(aspect, 1 / aspect) > max_aspect:
+        axis = int(aspect < 1)
+    else:
+        axis = int(rng.random() * (1 + aspect) > aspect)
     first, second = _split(rect, axis, [rng.uniform(0.3, 0.7)])
     return [
         *_slice(rng, first, area_mm2, max_aspect),
@@ -187,7 +190,7 @@ def _slice(
 
 
 def _split(rect: Rect, axis: int, shares: Sequence[float]) -> list[Rect]:
-    """Cuts along an axis (0: x, 1: y) into parts with these shares and a last one with the rest."""
+    """Cuts along an axis (0: x, 1: y) into parts with these shares and one with the rest."""
     low, high = rect[axis], rect[axis + 2]
     edges = [low, *(low + round(s * (high - low)) for s in np.cumsum(shares)), high]
     parts = []
@@ -246,7 +249,9 @@ def _strips(rects: Sequence[Rect]) -> Plan:
     return _plan(rects, Kind.STRIP, [0] * len(rects))
 
 
-def _copy(plan: Plan, source: Rect, target: Rect, flip_x: bool = False, flip_y: bool = False) -> Plan:
+def _copy(
+    plan: Plan, source: Rect, target: Rect, flip_x: bool = False, flip_y: bool = False
+) -> Plan:
     """The blocks of `source` moved, scaled and mirrored into `target`, wires unchanged.
 
     A coordinate that two blocks share is rounded once for both, so copies stay free of gaps.

@@ -36,7 +36,7 @@ def _count(text: str) -> int:
 def _size(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"([1-9]\d{0,4})x([1-9]\d{0,4})", text)
     if not match:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a size: write WIDTHxHEIGHT, like 960x540")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a size: write WIDTHxHEIGHT")
     return int(match[1]), int(match[2])
 
 
@@ -80,7 +80,7 @@ def render(picture: Picture, output: Path) -> None:
         raise IcwaferError(f"cannot make folder {output.parent}: {error.strerror}") from error
     bpy.ops.render.render()
     result = bpy.data.images["Render Result"]
-    for file_format, depth, ending in (("OPEN_EXR", "32", ".exr"), ("PNG", "8", ".png")):
+    for file_format, depth, ending in (("OPEN_EXR", "16", ".exr"), ("PNG", "8", ".png")):
         settings = scene.render.image_settings
         settings.file_format = file_format
         settings.color_depth = depth
