@@ -177,6 +177,7 @@ class BadInput(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "file").touch()
+            (folder / "taken.exr").mkdir()
             good = ("full", "--output", str(folder / "x"), "--size", "8x8", "--samples", "1")
             for arguments, words in (
                 (("fool", *good[1:]), "fool"),
@@ -184,6 +185,8 @@ class BadInput(unittest.TestCase):
                 ((*good, "--samples", "0"), "'0'"),
                 ((*good, "--shadows"), "--shadows"),
                 ((*good, "--output", str(folder / "file" / "x")), "cannot make folder"),
+                ((*good, "--output", str(folder / "taken")), "cannot write"),
+                ((*good, "--output", "/proc/x"), "disk full"),  # nothing is ever free there
                 (("full",), "--output"),
             ):
                 with self.subTest(arguments):
@@ -191,7 +194,7 @@ class BadInput(unittest.TestCase):
                     self.assertEqual(done.returncode, 1)
                     self.assertIn(words, done.stderr)
                     self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-            self.assertEqual([p.name for p in folder.iterdir()], ["file"])
+            self.assertEqual({p.name for p in folder.iterdir()}, {"file", "taken.exr"})
 
 
 if __name__ == "__main__":

@@ -10,14 +10,18 @@ import argparse
 import dataclasses
 import logging
 import re
+import shutil
 import sys
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from icwafer.errors import IcwaferError  # noqa: E402
 from icwafer.pictures import PICTURES, Picture  # noqa: E402
+
+if TYPE_CHECKING:
+    import bpy
 
 logger = logging.getLogger("icwafer")
 
@@ -64,9 +68,9 @@ def chosen_picture(arguments: argparse.Namespace) -> Picture:
 
 
 def render(picture: Picture, output: Path) -> None:
-    """Writes output.png, as a screen shows it, and output.exr, linear.
+    """Writes output.png, as a screen shows it, and output.exr, linear: both or neither.
 
-    Raises IcwaferError where the folder cannot be written.
+    Raises IcwaferError where the folder cannot be written or the disk is full.
     """
     import bpy
 
@@ -78,24 +82,47 @@ def render(picture: Picture, output: Path) -> None:
         output.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise IcwaferError(f"cannot make folder {output.parent}: {error.strerror}") from error
+    _expect_space(output.parent, picture)
     bpy.ops.render.render()
-    result = bpy.data.images["Render Result"]
-    for file_format, depth, ending in (("OPEN_EXR", "16", ".exr"), ("PNG", "8", ".png")):
-        settings = scene.render.image_settings
-        settings.file_format = file_format
-        settings.color_depth = depth
-        settings.color_mode = "RGB"
-        settings.compression = 100
-        path = output.with_name(output.name + ending)
-        # Written beside and renamed, so that no half of a picture is ever left.
-        part = path.with_name(f".part-{path.name}")
-        try:
-            result.save_render(str(part), scene=scene)
+    # Written beside and renamed, so that no half of a picture is ever left.
+    parts = {
+        output.with_name(output.name + ending): output.with_name(f".part-{output.name}{ending}")
+        for ending in (".exr", ".png")
+    }
+    try:
+        for part in parts.values():
+            _save(bpy.data.images["Render Result"], scene, part)
+        for path, part in parts.items():
             part.replace(path)
-        except (OSError, RuntimeError) as error:
+            logger.info("wrote %s", path)
+    except (OSError, RuntimeError) as error:
+        reason = " ".join(str(error).split())
+        raise IcwaferError(f"cannot write {output}.png and .exr: {reason}") from error
+    finally:
+        for part in parts.values():
             part.unlink(missing_ok=True)
-            raise IcwaferError(f"cannot write {path}: {error}") from error
-        logger.info("wrote %s", path)
+
+
+def _expect_space(folder: Path, picture: Picture) -> None:
+    """Raises IcwaferError unless both files fit: Blender does not notice a cut-off EXR."""
+    needed = 10 * picture.size[0] * picture.size[1] + 100_000  # 6 + 3 bytes a pixel and headers
+    free = shutil.disk_usage(folder).free
+    if free < needed:
+        raise IcwaferError(
+            f"disk full: the picture needs {needed // 1000} kB in {folder}, {free // 1000} kB are "
+            "free: free some space or choose another folder"
+        )
+
+
+def _save(result: bpy.types.Image, scene: bpy.types.Scene, path: Path) -> None:
+    settings = scene.render.image_settings
+    if path.suffix == ".exr":
+        settings.file_format, settings.color_depth = "OPEN_EXR", "16"
+    else:
+        settings.file_format, settings.color_depth = "PNG", "8"
+    settings.color_mode = "RGB"
+    settings.compression = 100
+    result.save_render(str(path), scene=scene)
 
 
 def main(arguments: list[str]) -> int:
