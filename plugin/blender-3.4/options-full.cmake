@@ -4,18 +4,6 @@
 
 include(${CMAKE_CURRENT_LIST_DIR}/options.cmake)
 
-set(full
-  WITH_CODEC_SNDFILE
-  WITH_CYCLES_DEVICE_CUDA
-  WITH_CYCLES_DEVICE_HIP
-  WITH_INPUT_NDOF
-  WITH_JACK
-  WITH_LIBMV
-  WITH_MOD_FLUID
-  WITH_OPENAL
-  WITH_OPENCOLLADA
-  WITH_SDL
-)
-foreach(option IN LISTS full)
+foreach(option IN LISTS full_only)
   set(${option} ON CACHE BOOL "" FORCE)
 endforeach()

@@ -12,8 +12,8 @@ set(on
   WITH_MOD_OCEANSIM
 )
 
-# Without rendering to do with it, and slow to build: options-full.cmake has them.
-set(off
+# Without rendering to do with it, and slow to build: options-full.cmake switches them on.
+set(full_only
   WITH_CODEC_SNDFILE
   WITH_CYCLES_DEVICE_CUDA
   WITH_CYCLES_DEVICE_HIP
@@ -23,11 +23,12 @@ set(off
   WITH_MOD_FLUID
   WITH_OPENAL
   WITH_OPENCOLLADA
-  WITH_PULSEAUDIO
   WITH_SDL
 )
+set(off ${full_only})
 
-# Debian 12 lacks the library, or has one that Blender 3.4.1 does not build with.
+# Debian 12 lacks the library, has one that Blender 3.4.1 does not build with, or does without it in
+# its own package.
 list(APPEND off
   WITH_ALEMBIC
   WITH_CYCLES_DEVICE_OPTIX
@@ -37,6 +38,7 @@ list(APPEND off
   WITH_LLVM
   WITH_NANOVDB
   WITH_OPENIMAGEDENOISE
+  WITH_PULSEAUDIO
   WITH_USD
   WITH_XR_OPENXR
 )
