@@ -2,7 +2,7 @@
 """The command line: thin over the functions of the package.
 
 Exit status: 0 if all went well, 1 for an error (one line on stderr), 2 for a wrong command line,
-130 after Ctrl-C; `test` passes on ctest's.
+130 after Ctrl-C; `test` passes on ctest's, `compare` has its own (see its --help).
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ from pathlib import Path
 from typing import NoReturn
 
 from icwafer import build, doctor, layout, packages, render, source
+from icwafer.compare import command as compare_command
 from icwafer.errors import IcwaferError
+from icwafer.report import command as report_command
 
 
 class _UsageError(Exception):
@@ -70,7 +72,7 @@ def _doctor(_: argparse.Namespace) -> int:
 
 
 def _test(arguments: list[str]) -> int:
-    packages.install("base", "core", "host", "test")  # at once, so that root is asked for once
+    packages.install("base", "images", "core", "host", "test")  # at once, so that root is asked for once
     build.build("core")
     build.build("blender")
     return subprocess.run(
@@ -128,6 +130,8 @@ def _parser() -> _Parser:
         "--from", dest="origin", metavar="DIR", help="tree to copy instead"
     )
     source_command.set_defaults(run=_source)
+    compare_command.register(commands)
+    report_command.register(commands)
     return parser
 
 
@@ -152,7 +156,9 @@ def main(argv: list[str]) -> int:
         message, status = "interrupted; the same command goes on where it stopped", 130
     except _UsageError as error:
         message, status = str(error), 2
-    except (IcwaferError, source.host_edits.HostEditError) as error:
+    except IcwaferError as error:
+        message, status = str(error), error.status
+    except source.host_edits.HostEditError as error:
         message, status = str(error), 1
     except OSError as error:
         mend = "make room" if error.errno in (errno.ENOSPC, errno.EDQUOT) else "mend this"

@@ -14,17 +14,23 @@ from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
 
-#: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
+#: Packages by purpose. Every build needs "base"; "images" is what reads, compares and labels
+#: pictures, also on a machine that builds nothing; "core" are the C++ tests of the material, "host"
 #: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests that start
-#: Blender.
+#: Blender or a browser.
 PURPOSES: dict[str, tuple[str, ...]] = {
-    "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
+    "base": ("cmake", "g++", "ninja-build"),
+    "images": (
+        "fonts-dejavu-core",
+        "python3-numpy",
+        "python3-openimageio",
+        "python3-pyopencolorio",
+    ),
     "core": (
         "libbenchmark-dev",
         "libboost-dev",
         "libgmock-dev",
         "libgtest-dev",
-        "python3-pyopencolorio",
     ),
     "host": tuple(
         """
@@ -48,7 +54,15 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "libspnav-dev",
         "opencollada-dev",
     ),
-    "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
+    "test": (
+        "blender",
+        "chromium",
+        "chromium-driver",
+        "libgl1-mesa-dri",
+        "python3-selenium",
+        "xauth",
+        "xvfb",
+    ),
 }
 
 
