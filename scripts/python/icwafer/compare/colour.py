@@ -45,9 +45,14 @@ class ViewTransform:
     view: str
     look: str
 
-    def __str__(self) -> str:
+    @property
+    def name(self) -> str:
+        """View, look and display."""
         look = f", {self.look}" if self.look else ""
-        return f"{self.view}{look} on {self.display} ({self.source})"
+        return f"{self.view}{look} on {self.display}"
+
+    def __str__(self) -> str:
+        return f"{self.name} ({self.source})"
 
     def encode(self, linear: np.ndarray) -> np.ndarray:
         """Scene-linear to encoded values for the screen, 0 to 1; any leading shape x 3."""

@@ -129,7 +129,8 @@ def _tone_map(linear: np.ndarray, k: tuple[float, ...]) -> np.ndarray:
 
 
 def _linear_ldr(reference: np.ndarray, test: np.ndarray, ppd: float) -> np.ndarray:
-    opponent = [_to_opponent(image) for image in (reference, test)]
+    # Single precision, as the authors' evaluator; it halves the time.
+    opponent = [_to_opponent(image.astype(np.float32)) for image in (reference, test)]
     colour = _colour_difference(*(_to_perceived(image, ppd) for image in opponent))
     feature = _feature_difference(*(image[..., 0] for image in opponent), ppd)
     return colour ** (1.0 - feature)
@@ -157,7 +158,8 @@ def _to_perceived(opponent: np.ndarray, ppd: float) -> np.ndarray:
         for a, b in terms:
             kernel = np.exp(-((math.pi * offset_deg) ** 2) / b)
             height = a * math.sqrt(math.pi / b)
-            filtered += height * _filter(opponent[..., channel], kernel, kernel)
+            along_row = _filter(opponent[..., channel], kernel, axis=1)
+            filtered += height * _filter(along_row, kernel, axis=0)
             weight += height * kernel.sum() ** 2
         seen[..., channel] = filtered / weight
     lab = srgb.to_lab(np.clip(_from_opponent(seen), 0.0, 1.0))
@@ -196,16 +198,19 @@ def _feature_difference(reference: np.ndarray, test: np.ndarray, ppd: float) -> 
     point = _unit_sides(((offset / deviation) ** 2 - 1) * smooth)
     smooth /= smooth.sum()
 
-    def strength(luma: np.ndarray, kernel: np.ndarray) -> np.ndarray:
+    def strengths(luma: np.ndarray) -> list[np.ndarray]:
         grey = (luma + 16) / 116
-        return np.hypot(_filter(grey, kernel, smooth), _filter(grey, smooth, kernel))
+        smooth_down, smooth_across = (_filter(grey, smooth, axis) for axis in (0, 1))
+        return [
+            np.hypot(_filter(smooth_down, kernel, axis=1), _filter(smooth_across, kernel, axis=0))
+            for kernel in (edge, point)
+        ]
 
     differences = [
-        np.abs(strength(reference, kernel) - strength(test, kernel)) for kernel in (edge, point)
+        np.abs(in_reference - in_test)
+        for in_reference, in_test in zip(strengths(reference), strengths(test))
     ]
-    return np.clip(
-        (np.maximum(*differences) / math.sqrt(2)) ** _FEATURE_EXPONENT, 0.0, 1.0
-    )
+    return np.clip((np.maximum(*differences) / math.sqrt(2)) ** _FEATURE_EXPONENT, 0.0, 1.0)
 
 
 def _unit_sides(kernel: np.ndarray) -> np.ndarray:
@@ -215,14 +220,16 @@ def _unit_sides(kernel: np.ndarray) -> np.ndarray:
     )
 
 
-def _filter(image: np.ndarray, along_row: np.ndarray, along_column: np.ndarray) -> np.ndarray:
-    """Separable convolution; beyond the border the border's pixels continue."""
-    for axis, kernel in ((1, along_row), (0, along_column)):
-        radius = kernel.size // 2
-        padding = [(0, 0), (0, 0)]
-        padding[axis] = (radius, radius)
-        padded = np.pad(image, padding, mode="edge")
-        length = image.shape[axis]
-        taps = (np.take(padded, range(i, i + length), axis=axis) for i in range(kernel.size))
-        image = sum(weight * tap for weight, tap in zip(kernel[::-1], taps))
-    return image
+def _filter(image: np.ndarray, kernel: np.ndarray, axis: int) -> np.ndarray:
+    """Convolution along an axis; beyond the border the border's pixels continue."""
+    radius = kernel.size // 2
+    padding = [(0, 0), (0, 0)]
+    padding[axis] = (radius, radius)
+    padded = np.pad(image, padding, mode="edge")
+    result, product = np.zeros_like(image), np.empty_like(image)
+    for first, weight in enumerate(kernel[::-1]):
+        window = [slice(None), slice(None)]
+        window[axis] = slice(first, first + image.shape[axis])
+        np.multiply(padded[tuple(window)], float(weight), out=product)
+        result += product
+    return result

@@ -96,10 +96,12 @@ def compare(
     smallest = float(every.min()) + math.log(every.size)
 
     tiles = np.zeros(_grid(difference.shape, _SMALLEST_TILE), dtype=bool)
-    for log_p, size in tests:
+    for log_p, size in sorted(tests, key=lambda test: test[1]):
         for row, column in np.argwhere((log_p <= significant).any(axis=-1)):
             step = size // _SMALLEST_TILE
-            tiles[row * step : (row + 1) * step, column * step : (column + 1) * step] = True
+            inside = tiles[row * step : (row + 1) * step, column * step : (column + 1) * step]
+            # A large tile is marked only where no smaller one in it says more exactly where.
+            inside |= not inside.any()
 
     rms = math.sqrt(np.mean(difference**2))
     rms_noise = math.sqrt(np.mean([noise**2 for noise in noises])) if noises else None

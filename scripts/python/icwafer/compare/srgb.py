@@ -20,6 +20,7 @@ XYZ_TO_REC709 = np.linalg.inv(REC709_TO_XYZ)
 #: XYZ of (1, 1, 1).
 WHITE_XYZ = REC709_TO_XYZ.sum(axis=1)
 LUMINANCE = REC709_TO_XYZ[1]
+_TO_SHARES = REC709_TO_XYZ / WHITE_XYZ[:, None]
 
 
 def decode(encoded: np.ndarray) -> np.ndarray:
@@ -35,13 +36,13 @@ def encode(linear: np.ndarray) -> np.ndarray:
 
 
 def to_xyz(linear: np.ndarray) -> np.ndarray:
-    """Linear Rec.709 to XYZ, as shares of the white point's."""
-    return linear @ (REC709_TO_XYZ / WHITE_XYZ[:, None]).T
+    """Linear Rec.709 to XYZ, as shares of the white point's; floats of any precision."""
+    return linear @ _TO_SHARES.astype(linear.dtype).T
 
 
 def from_xyz(xyz: np.ndarray) -> np.ndarray:
     """The inverse of `to_xyz`."""
-    return xyz @ np.linalg.inv(REC709_TO_XYZ / WHITE_XYZ[:, None]).T
+    return xyz @ np.linalg.inv(_TO_SHARES).astype(xyz.dtype).T
 
 
 def to_lab(linear: np.ndarray) -> np.ndarray:

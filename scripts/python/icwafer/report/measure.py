@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,14 +18,15 @@ from icwafer.errors import IcwaferError
 from icwafer.report import encode
 from icwafer.report.study import Job, Study
 
-#: Measures of a job: what each is. Those after the second are against the reference.
+#: Measures of a job: what each is. Luminance is scene-linear, saturation OKLab's chroma over
+#: lightness; the others are differences from the reference, RMS and PSNR of scene-linear values.
 MEASURES = {
-    "luminance": "mean luminance, scene-linear",
-    "saturation": "mean OKLab chroma over lightness",
-    "rms": "RMS difference from the reference, scene-linear",
-    "psnr": "PSNR against the reference in dB, peak 1",
-    "flip": "mean FLIP against the reference, as shown",
-    "hdr_flip": "mean HDR-FLIP against the reference",
+    "luminance": "mean luminance",
+    "saturation": "mean saturation",
+    "rms": "RMS difference",
+    "psnr": "PSNR, dB",
+    "flip": "mean FLIP",
+    "hdr_flip": "mean HDR-FLIP",
 }
 
 
@@ -78,7 +80,8 @@ def measure(
     finished = [job for job in study.jobs if job.image]
     tasks = [(job, reference, options) for job in finished]
     if processes > 1 and len(tasks) > 1:
-        with ProcessPoolExecutor(processes) as pool:
+        # Forked, a process would inherit the locks of OpenImageIO's threads, but not the threads.
+        with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
             results = list(pool.map(_attempt, tasks))
     else:
         results = list(map(_attempt, tasks))
@@ -134,7 +137,7 @@ def _measure(job: Job, reference: Job | None, options: Options) -> Measured:
         pixels=encode.half_floats(_small(linear, size)),
         thumbnail=encode.thumbnail(shown),
         linear=image.linear,
-        view=str(view),
+        view=view.name,
         values=values,
         flip=flip_map,
         hdr_flip=hdr_map,

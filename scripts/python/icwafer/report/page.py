@@ -6,6 +6,7 @@ from __future__ import annotations
 import html
 import json
 import os
+import re
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
@@ -70,7 +71,7 @@ def write(
     blobs = _blobs(measured, views)
     reference_id = reference.id if reference else None
     products = {
-        output: _html(study, data, blobs),
+        output: _html(study, data, blobs, ", ".join({view.source for view in views.values()})),
         output.with_suffix(".csv"): tables.to_csv(study, measured),
         output.with_suffix(".json"): tables.to_json(study, measured, reference_id),
     }
@@ -179,8 +180,10 @@ def _blobs(measured: dict[str, Measured], views: dict[str, ViewTransform]) -> di
     return blobs | {f"cube:{name}": encode.cube(view) for name, view in views.items()}
 
 
-def _html(study: Study, data: dict[str, Any], blobs: dict[str, str]) -> str:
-    facts = [*study.versions.items()]
+def _html(
+    study: Study, data: dict[str, Any], blobs: dict[str, str], configuration: str
+) -> str:
+    facts = [*study.versions.items(), ("OpenColorIO configuration", configuration)]
     if study.command:
         facts.append(("rendered by", study.command))
     parts = {
@@ -202,6 +205,4 @@ def _html(study: Study, data: dict[str, Any], blobs: dict[str, str]) -> str:
         ),
     }
     page = (_PARTS / "page.html").read_text(encoding="utf-8")
-    for name, text in parts.items():
-        page = page.replace(f"{{{{{name}}}}}", text, 1)
-    return page
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], page)

@@ -12,7 +12,7 @@ class Viewer extends EventTarget {
     super();
     this.a = (jobs.get(study.reference)?.width ? study.reference : pictured[0].id);
     this.b = (pictured.find((job) => job.id !== this.a) ?? pictured[0]).id;
-    this.mode = "side";
+    this.mode = "slider";
     this.channel = "rgb";
     this.exposure = 0;
     this.stops = -2; // the difference's full scale is 2 to this
@@ -73,6 +73,7 @@ class Viewer extends EventTarget {
     if (turn !== this.drawn) return;
     const two = mode === "side";
     byId("panes").classList.toggle("two", two);
+    byId("panes").style.setProperty("--aspect", layers[0].width / layers[0].height);
     this.canvases[1].parentElement.hidden = !two;
     this.label(mode);
     this.paint(this.canvases[0], layers[0], mode === "slider" ? layers[1] : null);
@@ -244,11 +245,8 @@ class Viewer extends EventTarget {
 
 /** Orders as lines in the colour of their wavelength on a dark edge, with a label each. */
 function drawOrders(context, curves, x, y, scale) {
-  const colours = { 450: "#6ea8ff", 550: "#6fe36f", 650: "#ff6a5c" };
   const ratio = devicePixelRatio;
-  const taken = [];
   context.save();
-  context.font = `${12 * ratio}px system-ui, sans-serif`;
   context.lineCap = "round";
   for (const curve of curves) {
     const path = new Path2D();
@@ -261,25 +259,39 @@ function drawOrders(context, curves, x, y, scale) {
     context.strokeStyle = "rgb(0 0 0 / .75)";
     context.lineWidth = 3.5 * ratio;
     context.stroke(path);
-    context.strokeStyle = colours[curve.nm] ?? "#ffffff";
+    context.strokeStyle = ORDER_COLOURS[curve.nm] ?? "#ffffff";
     context.lineWidth = 1.6 * ratio;
     context.stroke(path);
-    const text = curve.order === null ? "q·τ = 0" : curve.nm ? `${curve.order} · ${curve.nm} nm` : "order 0";
-    for (let i = 0; i < s.length; i += 4) {
-      const at = [x + s[i] * scale + 5 * ratio, y + s[i + 1] * scale - 4 * ratio];
-      const inside = at[0] > 0 && at[1] > 34 * ratio
-        && at[0] < context.canvas.width - 76 * ratio && at[1] < context.canvas.height;
-      const free = taken.every(([u, v]) => Math.abs(u - at[0]) > 90 * ratio || Math.abs(v - at[1]) > 15 * ratio);
-      if (!inside || !free) continue;
-      taken.push(at);
-      context.setLineDash([]);
-      context.lineWidth = 3 * ratio;
-      context.strokeStyle = "rgb(0 0 0 / .8)";
-      context.strokeText(text, ...at);
-      context.fillStyle = colours[curve.nm] ?? "#ffffff";
-      context.fillText(text, ...at);
-      break;
-    }
   }
+  context.setLineDash([]);
+  context.font = `${12 * ratio}px system-ui, sans-serif`;
+  const taken = [];
+  for (const curve of curves) labelOrder(context, curve, x, y, scale, taken);
   context.restore();
+}
+
+const ORDER_COLOURS = { 450: "#6ea8ff", 550: "#6fe36f", 650: "#ff6a5c" };
+
+/** At the first place on the curve that is inside the picture and free. */
+function labelOrder(context, curve, x, y, scale, taken) {
+  const ratio = devicePixelRatio;
+  const order = String(curve.order).replace("-", "−");
+  const text = curve.order === null ? "q·τ = 0" : curve.nm ? `${order}: ${curve.nm} nm` : "order 0";
+  const s = curve.segments;
+  for (let i = 0; i < s.length; i += 4) {
+    const at = [x + s[i] * scale + 6 * ratio, y + s[i + 1] * scale - 7 * ratio];
+    const inside = at[0] > 0 && at[1] > 40 * ratio
+      && at[0] < context.canvas.width - 80 * ratio && at[1] < context.canvas.height;
+    const free = taken.every(([u, v]) =>
+      Math.abs(u - at[0]) > 84 * ratio || Math.abs(v - at[1]) > 17 * ratio);
+    if (!inside || !free) continue;
+    taken.push(at);
+    context.lineWidth = 4 * ratio;
+    context.lineJoin = "round";
+    context.strokeStyle = "rgb(0 0 0 / .85)";
+    context.strokeText(text, ...at);
+    context.fillStyle = ORDER_COLOURS[curve.nm] ?? "#ffffff";
+    context.fillText(text, ...at);
+    return;
+  }
 }
