@@ -183,7 +183,7 @@ class OddImages(CompareCase):
         self.expect_error(["compare", a, str(text)], 2, "text.exr: not an image")
         cut = self.folder / "cut.exr"
         cut.write_bytes(Path(a).read_bytes()[:-900])
-        self.expect_error(["compare", a, str(cut)], 2, "cut.exr", "damaged")
+        self.expect_error(["compare", a, str(cut)], 2, "cut.exr", "end of file")
         self.expect_error(["compare", a], 2, "1 images; compare two")
 
     def test_values_out_of_range(self) -> None:
@@ -212,8 +212,8 @@ class Colour(CompareCase):
         view = colour.view_transform(config)
         white, green = view.to_rec709(np.array([[[1, 1, 1], [0, 1, 0]]], dtype=np.float32))[0]
         np.testing.assert_allclose(white, 1, atol=2e-3)
-        # The Academy's ACEScg to Rec.709 with Bradford's adaptation.
-        np.testing.assert_allclose(green, [-0.6217, 1.1408, -0.1289], atol=2e-3)
+        # Published to four digits, with another adaptation to D65 than the matrix used here.
+        np.testing.assert_allclose(green, [-0.6217, 1.1408, -0.1289], atol=5e-3)
 
 
 class Measures(unittest.TestCase):
@@ -229,13 +229,15 @@ class Measures(unittest.TestCase):
         self.assertEqual(found.max_place, (9, 5, 2))
 
     def test_yee(self) -> None:
-        """A black square on white is seen; a 1/1000 of it is not."""
-        white = np.ones((64, 64, 3))
-        square, faint = white.copy(), white.copy()
-        square[20:40, 20:40] = 0.0
-        faint[20:40, 20:40] = 0.999
-        self.assertGreater(metrics.yee(white, square, 30).pixels, 300)
-        self.assertEqual(metrics.yee(white, faint, 30).pixels, 0)
+        """A red square on grey is seen; one that is 1/1000 redder is not."""
+        grey = np.full((64, 64, 3), 0.5)
+        square, faint = grey.copy(), grey.copy()
+        square[20:40, 20:40] = (1.0, 0.2, 0.2)
+        faint[20:40, 20:40, 0] *= 1.001
+        seen = metrics.yee(grey, square, 30)
+        self.assertEqual(seen.pixels, 400)
+        self.assertAlmostEqual(seen.share, 400 / 64**2)
+        self.assertEqual(metrics.yee(grey, faint, 30).pixels, 0)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from icwafer.compare.measures import MEASURES
 from icwafer.errors import IcwaferError, InputError
 from icwafer.report.command import add_view_options
 
@@ -31,18 +32,6 @@ against a photograph:
   photograph's top left corner (the page of icwafer report prints them when they are clicked).
   Status 0 unless a --fail-hue or --fail-bands threshold is passed.
 """
-
-#: The measures of `comparison.MEASURES`, here without what that module imports.
-_THRESHOLDS = {
-    "mean": "mean absolute difference above X",
-    "rms": "RMS difference above X",
-    "psnr": "PSNR below X dB, for a peak of 1",
-    "max": "largest difference above X",
-    "yee": "more than the share X of the pixels visibly different (Yee 2004)",
-    "flip": "mean FLIP above X, 0 to 1",
-    "hdr-flip": "mean HDR-FLIP above X, 0 to 1",
-}
-
 
 def register(commands: argparse._SubParsersAction) -> None:
     """Adds the subcommand's parser."""
@@ -77,7 +66,7 @@ def register(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--level", type=float, default=0.01, metavar="P", help="of false alarms of --noise (0.01)"
     )
-    for name, meaning in _THRESHOLDS.items():
+    for name, meaning in MEASURES.items():
         parser.add_argument(f"--fail-{name}", type=float, metavar="X", help=f"status 1: {meaning}")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the result there")
     parser.add_argument("--html", type=Path, metavar="FILE", help="write a page to compare by eye")
@@ -145,7 +134,7 @@ def _images(arguments: argparse.Namespace) -> int:
         raise InputError(f"--level {arguments.level:g} is outside 0 to 0.5; usual is 0.01")
     thresholds = {
         name: value
-        for name in _THRESHOLDS
+        for name in MEASURES
         if (value := getattr(arguments, "fail_" + name.replace("-", "_"))) is not None
     }
     view = view_transform(arguments.ocio, arguments.view, arguments.look)

@@ -14,23 +14,11 @@ from icwafer.compare.colour import ViewTransform
 from icwafer.compare.images import Image
 from icwafer.errors import InputError
 
-#: Measures that can have a threshold: what each is. PSNR fails below it, the others above.
-MEASURES = {
-    "mean": "mean of the absolute differences",
-    "rms": "root of the mean square difference",
-    "psnr": "peak signal to noise ratio in dB, for a peak of 1; fails below it",
-    "max": "largest difference of a channel",
-    "yee": "share of the pixels whose difference is visible (Yee 2004), 0 to 1",
-    "flip": "mean FLIP of the images as a screen shows them, 0 to 1",
-    "hdr-flip": "mean HDR-FLIP of scene-linear images, 0 to 1",
-}
-
-
 @dataclass(frozen=True)
 class Comparison:
     """What was compared, how, and what was found.
 
-    values: of `MEASURES`; those that do not apply to these images are not in it.
+    values: of `measures.MEASURES`; those that do not apply to these images are not in it.
     max_place: x, y, channel of the largest difference.
     flip_map, hdr_flip: None unless asked for.
     """

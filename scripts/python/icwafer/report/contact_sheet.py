@@ -18,6 +18,7 @@ _CELL_PX = 320
 _GAP_PX = 6
 _MARGIN_PX = 92
 _FONT_PX = 18
+_LETTER_PX = 12  # of the widest letters
 _FONT = "DejaVuSans"
 _GROUND = (0.09, 0.09, 0.09)
 _INK = (0.86, 0.86, 0.86)
@@ -66,7 +67,10 @@ def _sheet(
     rows = down.values if down else (None,)
     first = next(iter(pictures.values()))
     cell = (_CELL_PX, max(1, round(_CELL_PX * first.shape[0] / first.shape[1])))
-    left = _MARGIN_PX if down else _GAP_PX * 2
+    left = _GAP_PX * 2
+    if down:
+        longest = max(map(len, (down.name, down.unit, *map(_text, down.values))))
+        left += longest * _LETTER_PX + _GAP_PX
     width = left + len(across.values) * (cell[0] + _GAP_PX) + _GAP_PX
     height = _MARGIN_PX + len(rows) * (cell[1] + _GAP_PX) + _GAP_PX
     sheet = oiio.ImageBuf(oiio.ImageSpec(width, height, 3, oiio.UINT8))

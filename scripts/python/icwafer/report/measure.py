@@ -138,7 +138,7 @@ def _measure(job: Job, reference: Job | None, options: Options) -> Measured:
         thumbnail=encode.thumbnail(shown),
         linear=image.linear,
         view=view.name,
-        values=values,
+        values={name: values[name] for name in MEASURES if name in values},
         flip=flip_map,
         hdr_flip=hdr_map,
         curves=tuple(

@@ -9,6 +9,7 @@ import os
 import re
 import tempfile
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -62,12 +63,13 @@ def write(
     measured, unusable = measure.measure(
         study, reference, options, processes or os.cpu_count() or 1
     )
+    study = replace(study, jobs=tuple(_with_error(job, unusable) for job in study.jobs))
     views = {
         measured[job.id].view: measure.view_of(job, options, measured[job.id].linear)
         for job in finished
         if job.id in measured
     }
-    data = _page_data(study, measured, unusable, reference, scale, ppd)
+    data = _page_data(study, measured, reference, scale, ppd)
     blobs = _blobs(measured, views)
     reference_id = reference.id if reference else None
     products = {
@@ -88,6 +90,10 @@ def write(
         part.replace(path)
         products[path] = ""
     return list(products)
+
+
+def _with_error(job: Job, errors: dict[str, str]) -> Job:
+    return replace(job, error=errors[job.id], image=None) if job.id in errors else job
 
 
 def _write(path: Path, content: bytes) -> None:
@@ -115,7 +121,6 @@ def _scale(jobs: Iterable[Job], largest_mb: float) -> float:
 def _page_data(
     study: Study,
     measured: dict[str, Measured],
-    unusable: dict[str, str],
     reference: Job | None,
     scale: float,
     ppd: float,
@@ -132,11 +137,11 @@ def _page_data(
         "pixelsPerDegree": ppd,
         "cubePoints": encode.CUBE_POINTS,
         "cubeStops": encode.CUBE_STOPS,
-        "jobs": [_job_data(job, measured.get(job.id), unusable.get(job.id)) for job in study.jobs],
+        "jobs": [_job_data(job, measured.get(job.id)) for job in study.jobs],
     }  # fmt: skip
 
 
-def _job_data(job: Job, found: Measured | None, reason: str | None) -> dict[str, Any]:
+def _job_data(job: Job, found: Measured | None) -> dict[str, Any]:
     data = {
         "id": job.id,
         "settings": job.settings,
@@ -144,7 +149,7 @@ def _job_data(job: Job, found: Measured | None, reason: str | None) -> dict[str,
         "seconds": job.seconds,
         "samples": job.samples,
         "seed": job.seed,
-        "error": job.error or reason or "",
+        "error": job.error,
     }
     if found:
         shrunk = found.size[0] / found.original_size[0]

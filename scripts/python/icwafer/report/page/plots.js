@@ -37,6 +37,12 @@ class Plots {
     this.by = this.swept[1] ?? null;
     this.measure = measures.includes("flip") ? "flip" : measures[0];
     this.build();
+    let width = byId("plot").clientWidth;
+    new ResizeObserver(() => {
+      if (byId("plot").clientWidth === width) return;
+      width = byId("plot").clientWidth;
+      this.show();
+    }).observe(byId("plot"));
   }
 
   build() {
@@ -58,6 +64,10 @@ class Plots {
         this.build();
       })] : []),
     );
+    this.show();
+  }
+
+  show() {
     byId("plot").replaceChildren(this.draw());
   }
 
@@ -72,7 +82,9 @@ class Plots {
   }
 
   draw() {
-    const [width, height, left, right, top, bottom] = [960, 400, 72, 150, 18, 52];
+    const width = Math.min(Math.max(byId("plot").clientWidth, 320), 960);
+    const [height, left, top, bottom] = [width < 600 ? 280 : 400, 58, 18, 52];
+    const right = this.by ? (width < 600 ? 76 : 130) : 24;
     const series = this.series();
     const points = series.flat();
     const numeric = this.x.values.every((value) => typeof value === "number");
