@@ -38,7 +38,12 @@ class Browser:
             "Emulation.setEmulatedMedia",
             {"features": [{"name": "prefers-color-scheme", "value": scheme}]},
         )
-        self.driver.get(page.as_uri())
+        self.page = page.as_uri()
+        self.open()
+
+    def open(self) -> None:
+        """Loads the page anew and waits until it has drawn."""
+        self.driver.get(self.page)
         self.wait(lambda: self.js("return document.documentElement.dataset.drawn"))
 
     def close(self) -> None:
@@ -53,7 +58,7 @@ class Browser:
     def all(self, selector: str) -> list[WebElement]:
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
 
-    def wait(self, condition: Callable[[], object], seconds: float = 30.0) -> object:
+    def wait(self, condition: Callable[[], object], seconds: float = 4.0) -> object:
         """Until the condition is true; AssertionError if that takes too long."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:

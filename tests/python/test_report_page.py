@@ -28,11 +28,6 @@ def shown(spacing: float, lobe: float, exposure: float = 0.0) -> np.ndarray:
     return colour.SRGB_CURVE.encode(halves * 2.0**exposure) * 255
 
 
-def magma(level: float) -> str:
-    """Which end of the scale a colour has to be near."""
-    return "dark" if level < 0.3 else "light"
-
-
 class PageCase(unittest.TestCase):
     width, height, scheme = 1400, 900, "dark"
 
@@ -51,13 +46,7 @@ class PageCase(unittest.TestCase):
         cls.addClassCleanup(cls.browser.close)
 
     def setUp(self) -> None:
-        self.browser.drawn_after(
-            lambda: self.browser.js("location.reload()")
-        ) if self.browser.js("return document.documentElement.dataset.used") else None
-        self.browser.wait(
-            lambda: self.browser.js("return document.documentElement.dataset.drawn")
-        )
-        self.browser.js("document.documentElement.dataset.used = 1")
+        self.browser.open()
 
     def tearDown(self) -> None:
         self.assertEqual(self.browser.complaints(), [])
