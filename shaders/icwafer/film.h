@@ -78,8 +78,8 @@ ICW_DEVICE PolarisedFilmPair<Real> film_on_metal(const Real cos_air,
   const Complex<Real> below = decaying_sqrt<Real>(
       {metal_squared.re - sin_squared, metal_squared.im});
 
-  const Complex<Real> ridge_trip = unit_turns<Real>(2.0f * film * ridge_waves);
-  const Complex<Real> groove_trip = unit_turns<Real>(2.0f * film * groove_waves);
+  const Complex<Real> ridge_trip = unit_turns(2.0f * film * ridge_waves);
+  const Complex<Real> groove_trip = unit_turns(2.0f * film * groove_waves);
   const Real chord_squared = norm(ridge_trip - groove_trip);
 
   const Real film_cos = film_squared * cos_air;
