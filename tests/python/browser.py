@@ -58,7 +58,7 @@ class Browser:
     def all(self, selector: str) -> list[WebElement]:
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
 
-    def wait(self, condition: Callable[[], object], seconds: float = 4.0) -> object:
+    def wait(self, condition: Callable[[], object], seconds: float = 20.0) -> object:
         """Until the condition is true; AssertionError if that takes too long."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
@@ -96,9 +96,11 @@ class Browser:
     def colour(self, canvas: str, x: float, y: float) -> list[int]:
         """Of a canvas at a place in shares of its size: red, green, blue."""
         return self.js(
+            # From a copy: Chromium complains when a canvas that is drawn on is read.
             "const [id, x, y] = arguments; const c = document.getElementById(id);"
-            "return [...c.getContext('2d').getImageData(Math.floor(x * c.width),"
-            " Math.floor(y * c.height), 1, 1).data].slice(0, 3);",
+            "const context = new OffscreenCanvas(1, 1).getContext('2d', {willReadFrequently: true});"
+            "context.drawImage(c, -Math.floor(x * c.width), -Math.floor(y * c.height));"
+            "return [...context.getImageData(0, 0, 1, 1).data].slice(0, 3);",
             canvas,
             x,
             y,

@@ -8,6 +8,7 @@ import csv
 import json
 import unittest
 import zlib
+from unittest import mock
 
 import numpy as np
 import OpenImageIO as oiio
@@ -45,17 +46,32 @@ class Encode(unittest.TestCase):
         levels = np.cumsum(steps, axis=-1, dtype=np.uint8)
         np.testing.assert_allclose(levels / 255, values, atol=0.5 / 255 + 1e-9)
 
-    def test_cube(self) -> None:
-        n = encode.CUBE_POINTS
-        inputs = encode.cube_inputs()
-        self.assertEqual(inputs[0, 0, 0].tolist(), [0, 0, 0])
-        self.assertGreater(inputs[0, 0, 1, 0], 0)  # red fastest
-        self.assertAlmostEqual(inputs[-1, -1, -1, 0], 128, delta=0.01)
-        values = np.frombuffer(unpacked(encode.cube(colour.SRGB_CURVE)), "<u2")
-        values = values.reshape(n, n, n, 3)
+    def test_curve(self) -> None:
+        """The sRGB curve treats channels alone: exact between points, too."""
+        points = encode.CURVE_POINTS
+        inputs = encode.table_inputs(points)
+        self.assertEqual(inputs[0], 0)
+        self.assertAlmostEqual(inputs[-1], 128, delta=0.01)
+        values = np.frombuffer(unpacked(encode.view_table(colour.SRGB_CURVE)), "<u2")
+        values = values.reshape(points, 3) / 65535
+        between = np.sqrt(inputs[1:-1] * inputs[2:])
         np.testing.assert_allclose(
-            values / 65535, colour.SRGB_CURVE.encode(inputs), atol=0.6 / 65535
+            (values[1:-1, 0] + values[2:, 0]) / 2, colour.SRGB_CURVE.encode(between), atol=2e-3
         )
+
+    def test_cube(self) -> None:
+        """A view transform that mixes channels: red fastest."""
+        mixing = mock.Mock()
+        mixing.encode = lambda x: np.clip(x @ [[0.7, 0.2, 0.1], [0, 1, 0], [0.3, 0, 0.7]], 0, 1)
+        n = encode.CUBE_POINTS
+        values = np.frombuffer(unpacked(encode.view_table(mixing)), "<u2").reshape(n, n, n, 3)
+        side = encode.table_inputs(n)
+        for red, green, blue in ((27, 3, 9), (0, 25, 2), (5, 5, 20)):
+            np.testing.assert_allclose(
+                values[blue, green, red] / 65535,
+                mixing.encode(np.array([side[red], side[green], side[blue]])),
+                atol=1e-5,
+            )
 
 
 class Load(CompareCase):
@@ -71,11 +87,21 @@ class Load(CompareCase):
         self.assertEqual(len(ids), 6)
         errors = {job.id: job.error for job in loaded.jobs if job.error}
         self.assertEqual(errors["broken"], "Blender ended with signal 11")
-        self.assertIn("never finished", errors["unfinished"])
+        self.assertIn("not rendered yet", errors["unfinished"])
         self.assertEqual(
             loaded.command, f"icwafer render study.toml -o {self.study}"
         )
         self.assertEqual(loaded.jobs[-1].gratings[0].spacing_nm, 2000)
+
+    def test_only_the_jobs_of_the_study(self) -> None:
+        """Others are left from before; those that are missing are named."""
+        path = self.study / "study.json"
+        given = json.loads(path.read_text())
+        path.write_text(json.dumps(given | {"jobs": [REFERENCE, "later"]}))
+        (self.study / "jobs" / ".part-1").mkdir()
+        jobs = study.load(self.study).jobs
+        self.assertEqual({job.id for job in jobs}, {REFERENCE, "later"})
+        self.assertIn("not rendered yet", next(job.error for job in jobs if job.id == "later"))
 
     def test_a_bad_job_counts_as_failed(self) -> None:
         path = self.study / "jobs" / REFERENCE / "job.json"
@@ -99,7 +125,7 @@ class Load(CompareCase):
         (empty / "study.json").write_text('{"name": "x"}')
         self.expect_error(["report", str(empty)], 1, "no jobs")
         (empty / "jobs" / "a").mkdir(parents=True)
-        self.expect_error(["report", str(empty)], 1, "no job has a picture", "never finished")
+        self.expect_error(["report", str(empty)], 1, "no job has a picture", "not rendered yet")
 
 
 class Write(CompareCase):

@@ -18,9 +18,9 @@ from icwafer.compare.colour import ViewTransform
 from icwafer.compare.images import to_buffer
 from icwafer.errors import IcwaferError
 
-#: The table of a view transform has this many points a side, over 2^first to 2^last of light.
-CUBE_POINTS = 33
-CUBE_STOPS = (-12.0, 7.0)
+#: Tables of view transforms have this many points (a side), over 2^first to 2^last of light.
+CURVE_POINTS, CUBE_POINTS = 4096, 49
+TABLE_STOPS = (-12.0, 7.0)
 _THUMBNAIL_PX = 320
 
 
@@ -43,21 +43,28 @@ def unit_map(values: np.ndarray) -> str:
     return pack(np.diff(levels, axis=-1, prepend=np.uint8(0)).tobytes())
 
 
-def cube_inputs() -> np.ndarray:
-    """The scene-linear colours of a view transform's table: n x n x n x 3, red fastest.
+def table_inputs(points: int) -> np.ndarray:
+    """Light at the points of a table; it grows geometrically, and an offset makes the first 0."""
+    first, last = TABLE_STOPS
+    return 2.0 ** np.linspace(first, last, points) - 2.0**first
 
-    They grow geometrically; an offset makes the first one 0.
+
+def view_table(view: ViewTransform) -> str:
+    """A view transform as 16-bit values: a curve for each channel, else a cube, red fastest.
+
+    A curve is exact where the transform treats the channels alone, as one that only encodes and
+    clips; the sharp bend where it clips is what a cube cannot follow.
     """
-    first, last = CUBE_STOPS
-    side = 2.0 ** np.linspace(first, last, CUBE_POINTS) - 2.0**first
+    curve = view.encode(np.repeat(table_inputs(CURVE_POINTS)[None, :, None], 3, axis=2))
+    mixed = np.random.default_rng(0).permuted(np.tile(np.arange(CURVE_POINTS), (3, 1)), axis=1)
+    colours = table_inputs(CURVE_POINTS)[mixed].T[None]
+    alone = np.stack([curve[0, mixed[channel], channel] for channel in range(3)], axis=-1)
+    if np.abs(view.encode(colours)[0] - alone).max() < 1e-3:
+        return pack(np.round(curve[0] * 65535).astype("<u2").tobytes())
+    side = table_inputs(CUBE_POINTS)
     blue, green, red = np.meshgrid(side, side, side, indexing="ij")
-    return np.stack([red, green, blue], axis=-1)
-
-
-def cube(view: ViewTransform) -> str:
-    """A view transform as a table of 16-bit values."""
-    shown = view.encode(cube_inputs().reshape(1, -1, 3))
-    return pack(np.round(shown * 65535).astype("<u2").tobytes())
+    cube = view.encode(np.stack([red, green, blue], axis=-1).reshape(1, -1, 3))
+    return pack(np.round(cube * 65535).astype("<u2").tobytes())
 
 
 def thumbnail(shown: np.ndarray) -> str:

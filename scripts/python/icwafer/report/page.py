@@ -136,7 +136,8 @@ def _page_data(
         "scale": scale,
         "pixelsPerDegree": ppd,
         "cubePoints": encode.CUBE_POINTS,
-        "cubeStops": encode.CUBE_STOPS,
+        "curvePoints": encode.CURVE_POINTS,
+        "tableStops": encode.TABLE_STOPS,
         "jobs": [_job_data(job, measured.get(job.id)) for job in study.jobs],
     }  # fmt: skip
 
@@ -182,7 +183,7 @@ def _blobs(measured: dict[str, Measured], views: dict[str, ViewTransform]) -> di
         for kind in ("pixels", "flip", "hdr_flip")
         if getattr(found, kind)
     }
-    return blobs | {f"cube:{name}": encode.cube(view) for name, view in views.items()}
+    return blobs | {f"view:{name}": encode.view_table(view) for name, view in views.items()}
 
 
 def _html(

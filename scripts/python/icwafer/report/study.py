@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reads the folder of a rendered study.
 
-    DIR/study.json           name, description, axes (name, unit, values), reference, versions,
-                             command
+    DIR/study.json           name, description, axes (name, unit, values), jobs (their ids),
+                             reference, versions, command
     DIR/jobs/ID/job.json     id, settings, command, seconds, samples, seed, view_transform, look,
                              status, error, grating
     DIR/jobs/ID/image.exr    scene-linear; image.png, as a screen shows it; log.txt
 
-Everything but the name of the study and each job's settings may be missing. `grating` is one
+Everything but the name of the study may be missing; without `jobs` all folders count. `grating` is one
 object or a list of them and asks for the orders to be drawn over the picture: `camera`
 (position_mm, target_mm, lens_mm), `light` (position_mm), `plane` (point, normal, x_axis),
 `spacing_nm`, `direction_rad`.
@@ -93,8 +93,11 @@ def load(folder: Path) -> Study:
         name = str(given["name"])
     except (KeyError, TypeError, AttributeError) as error:
         raise IcwaferError(f"{path}: without a good {error}; render the study anew") from None
-    folders = sorted(entry for entry in (folder / "jobs").glob("*") if entry.is_dir())
-    jobs = tuple(sorted((_job(entry) for entry in folders), key=lambda job: _order(axes, job)))
+    found = (entry for entry in (folder / "jobs").glob("[!.]*") if entry.is_dir())
+    ids = given.get("jobs") or sorted(entry.name for entry in found)
+    jobs = tuple(
+        sorted((_job(folder / "jobs" / id) for id in ids), key=lambda job: _order(axes, job))
+    )
     if not jobs:
         raise IcwaferError(f"{folder / 'jobs'}: no jobs; render the study first")
     reference = given.get("reference")
@@ -128,7 +131,7 @@ def _object(path: Path) -> dict[str, Any]:
 def _job(folder: Path) -> Job:
     path = folder / "job.json"
     if not path.is_file():
-        return Job(folder.name, {}, error="no job.json: it was never finished")
+        return Job(folder.name, {}, error="not rendered yet: no job.json")
     try:
         given = _object(path)
         settings = dict(given.get("settings") or {})

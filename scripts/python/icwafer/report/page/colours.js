@@ -21,20 +21,23 @@ const MAGMA = (() => {
   return table;
 })();
 
-/** Where light lies on a side of a view transform's table. */
-function cubePlace(light) {
-  const [first, last] = study.cubeStops;
-  const place = ((Math.log2(light + 2 ** first) - first) / (last - first)) * (study.cubePoints - 1);
-  return Math.min(Math.max(place, 0), study.cubePoints - 1.0001);
+/** Where light lies among the points of a table. */
+function tablePlace(light, points) {
+  const [first, last] = study.tableStops;
+  const place = ((Math.log2(light + 2 ** first) - first) / (last - first)) * (points - 1);
+  return Math.min(Math.max(place, 0), points - 1.0001);
 }
 
 /** A canvas of a job as a screen shows it, or one of its channels in grey. */
 async function shownCanvas(id, exposure, channel) {
   const job = jobs.get(id);
-  const [bits, cube] = await Promise.all([pixelsOf(id), cubeOf(job.view)]);
+  const [bits, table] = await Promise.all([pixelsOf(id), tableOf(job.view)]);
+  const isCurve = table.length === 3 * study.curvePoints;
+  const points = isCurve ? study.curvePoints : study.cubePoints;
+  const lookUp = isCurve ? lookUpCurve : lookUpCube;
   const gain = 2 ** exposure;
   const places = new Float32Array(HALF.length);
-  for (let i = 0; i < places.length; ++i) places[i] = cubePlace(HALF[i] * gain);
+  for (let i = 0; i < places.length; ++i) places[i] = tablePlace(HALF[i] * gain, points);
   const count = job.width * job.height;
   const image = new ImageData(job.width, job.height);
   const only = "rgb".indexOf(channel);
@@ -43,17 +46,27 @@ async function shownCanvas(id, exposure, channel) {
     if (channel === "y") {
       const light = LUMINANCE[0] * HALF[bits[i]] + LUMINANCE[1] * HALF[bits[count + i]]
         + LUMINANCE[2] * HALF[bits[2 * count + i]];
-      r = g = b = cubePlace(light * gain);
+      r = g = b = tablePlace(light * gain, points);
     } else if (channel !== "rgb") {
       r = g = b = only === 0 ? r : only === 1 ? g : b;
     }
-    lookUp(cube, r, g, b, image.data, 4 * i);
+    lookUp(table, r, g, b, image.data, 4 * i);
   }
   return canvasOf(image);
 }
 
+function lookUpCurve(curve, r, g, b, target, at) {
+  for (let c = 0; c < 3; ++c) {
+    const place = c === 0 ? r : c === 1 ? g : b;
+    const low = Math.floor(place);
+    const near = curve[3 * low + c];
+    target[at + c] = (near + (place - low) * (curve[3 * low + 3 + c] - near)) / 257;
+  }
+  target[at + 3] = 255;
+}
+
 /** Tetrahedral interpolation in a table with red fastest: greys stay grey. */
-function lookUp(cube, r, g, b, target, at) {
+function lookUpCube(cube, r, g, b, target, at) {
   const n = study.cubePoints;
   const stepR = 3, stepG = 3 * n, stepB = 3 * n * n;
   const base = Math.floor(r) * stepR + Math.floor(g) * stepG + Math.floor(b) * stepB;

@@ -60,7 +60,7 @@ const mapOf = remembered((key) => {
   const kind = key.slice(0, key.indexOf(":"));
   return unpackMap(jobs.get(key.slice(kind.length + 1)), kind);
 }, 8);
-const cubeOf = remembered(async (view) => new Uint16Array((await unpack(`cube:${view}`)).buffer), 8);
+const tableOf = remembered(async (view) => new Uint16Array((await unpack(`view:${view}`)).buffer), 8);
 
 function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
