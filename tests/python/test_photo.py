@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import unittest
+from xml.etree import ElementTree
 
 import numpy as np
 from test_compare import CompareCase
@@ -94,8 +95,7 @@ class Hues(unittest.TestCase):
         """Two pictures of one hue each are as far apart as the hues, also across 0 degrees."""
         def flat(hue_deg: float) -> np.ndarray:
             a, b = 0.1 * np.cos(np.radians(hue_deg)), 0.1 * np.sin(np.radians(hue_deg))
-            cones = np.linalg.solve(hues._TO_OKLAB, [0.7, a, b]) ** 3
-            return np.broadcast_to(np.linalg.solve(hues._TO_CONES, cones), (8, 8, 3))
+            return np.broadcast_to(hues.from_oklab(np.array([0.7, a, b])), (8, 8, 3))
 
         for first, second, apart in ((20, 90, 70), (350, 30, 40), (10, 190, 180)):
             found = hues.compare(flat(first), flat(second))
@@ -133,6 +133,18 @@ class Command(CompareCase):
             [band["name"] for band in found["photo"]["bands"]],
             [band["name"] for band in found["render"]["bands"]],
         )
+
+    def test_page(self) -> None:
+        """Both pictures, and a figure with the bands' names."""
+        page = self.folder / "page.html"
+        self.compared(0, render(), "--html", str(page))
+        text = page.read_text()
+        figure = text[text.index('<svg class="chart"') : text.index("</svg>")]
+        ElementTree.fromstring(figure + "</svg>")
+        self.assertIn(">photo</text>", figure)
+        self.assertGreaterEqual(figure.count('class="grid"'), 4)
+        for name in ("photo", "render"):
+            self.assertIn(f'data-name="pixels:{name}"', text)
 
     def test_other_bands(self) -> None:
         out = self.compared(1, render(shift=0.3), "--fail-bands", "0.9")

@@ -220,7 +220,7 @@ class Write(CompareCase):
         page = self.folder / "compare.html"
         status, _, err = self.icwafer("compare", *paths, "--html", str(page))
         self.assertEqual(status, 1, err)
-        self.assertIn('data-name="flip:B"', page.read_text())
+        self.assertIn(f'data-name="flip:B: {paths[1]}"', page.read_text())
 
     def test_no_sheet_without_axes(self) -> None:
         loaded = study.Study("x", "", (), None, "", {}, ())

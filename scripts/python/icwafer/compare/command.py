@@ -157,7 +157,8 @@ def _images(arguments: argparse.Namespace) -> int:
     if arguments.json:
         _write_json(arguments.json, comparison.as_json(found, failures))
     if arguments.html:
-        _write_page(arguments, a.path, b.path, f"{a.path.name} and {b.path.name}")
+        title = f"{a.path.name} and {b.path.name}"
+        _write_page(arguments, (a.path, b.path), _distinct(a.path, b.path), title)
     return 1 if failures else 0
 
 
@@ -200,7 +201,7 @@ def _print(found: Comparison, failures: list[str]) -> None:
 
 
 def _photo(arguments: argparse.Namespace) -> int:
-    from icwafer.compare import photo
+    from icwafer.compare import photo, photo_figure
     from icwafer.compare.colour import view_transform
 
     if len(arguments.images) != 1:
@@ -225,18 +226,32 @@ def _photo(arguments: argparse.Namespace) -> int:
     if arguments.json:
         _write_json(arguments.json, photo.as_json(found, failures))
     if arguments.html:
-        with photo.as_files(found) as (first, second):
-            title = f"{arguments.photo.name} and {arguments.images[0].name}"
-            _write_page(arguments, first, second, title)
+        title = f"{arguments.photo.name} and {arguments.images[0].name}"
+        names = ("photo", "render")
+        with photo.as_files(found) as files:
+            _write_page(arguments, files, names, title, photo_figure.svg(found.hues, names))
     return 1 if failures else 0
 
 
-def _write_page(arguments: argparse.Namespace, a: Path, b: Path, title: str) -> None:
+def _distinct(a: Path, b: Path) -> tuple[str, str]:
+    """What the page calls two files."""
+    if a.name != b.name:
+        return a.name, b.name
+    return (f"A: {a}", f"B: {b}")
+
+
+def _write_page(
+    arguments: argparse.Namespace,
+    files: tuple[Path, Path],
+    names: tuple[str, str],
+    title: str,
+    figure: str = "",
+) -> None:
     from icwafer.report import page
     from icwafer.report.study import Job, Study
 
-    jobs = (Job("A", {"file": a.name}, image=a), Job("B", {"file": b.name}, image=b))
-    study = Study(title, "A is the reference.", (), "A", "", {}, jobs)
+    jobs = tuple(Job(name, {}, image=path) for name, path in zip(names, files))
+    study = Study(title, "", (), names[0], "", {}, jobs)
     for path in page.write(
         study,
         arguments.html,
@@ -245,6 +260,7 @@ def _write_page(arguments: argparse.Namespace, a: Path, b: Path, title: str) -> 
         look=arguments.look,
         ppd=_ppd(arguments),
         layer=arguments.layer,
+        figure=figure,
     ):
         print(path)
 

@@ -92,6 +92,11 @@ def to_oklab(linear: np.ndarray) -> np.ndarray:
     return np.cbrt(np.maximum(linear, 0.0) @ _TO_CONES.T) @ _TO_OKLAB.T
 
 
+def from_oklab(lab: np.ndarray) -> np.ndarray:
+    """The inverse of `to_oklab`; colours outside Rec.709 have negative channels."""
+    return (lab @ np.linalg.inv(_TO_OKLAB).T) ** 3 @ np.linalg.inv(_TO_CONES).T
+
+
 def compare(
     first: np.ndarray,
     second: np.ndarray,

@@ -40,12 +40,14 @@ def write(
     ppd: float,
     hdr: bool = True,
     layer: str | None = None,
+    figure: str = "",
     largest_mb: float = 64.0,
     processes: int | None = None,
 ) -> list[Path]:
     """Writes the page, and beside it a CSV, a JSON and, where axes were swept, contact sheets.
 
-    view, look: for jobs that name none. ppd: pixels per degree, for FLIP. largest_mb: of the page,
+    view, look: for jobs that name none. ppd: pixels per degree, for FLIP. figure: SVG for a section
+    of its own. largest_mb: of the page,
     roughly; the embedded pixels are made as small as that needs, the measures are of the originals.
 
     Raises IcwaferError when no job has a picture; files appear complete or not at all.
@@ -73,7 +75,7 @@ def write(
     blobs = _blobs(measured, views)
     reference_id = reference.id if reference else None
     products = {
-        output: _html(study, data, blobs, ", ".join({view.source for view in views.values()})),
+        output: _html(study, data, blobs, views, figure),
         output.with_suffix(".csv"): tables.to_csv(study, measured),
         output.with_suffix(".json"): tables.to_json(study, measured, reference_id),
     }
@@ -187,9 +189,14 @@ def _blobs(measured: dict[str, Measured], views: dict[str, ViewTransform]) -> di
 
 
 def _html(
-    study: Study, data: dict[str, Any], blobs: dict[str, str], configuration: str
+    study: Study,
+    data: dict[str, Any],
+    blobs: dict[str, str],
+    views: dict[str, ViewTransform],
+    figure: str,
 ) -> str:
-    facts = [*study.versions.items(), ("OpenColorIO configuration", configuration)]
+    sources = sorted({view.source for view in views.values()})
+    facts = [*study.versions.items(), ("OpenColorIO configuration", ", ".join(sources))]
     if study.command:
         facts.append(("rendered by", study.command))
     parts = {
@@ -199,6 +206,7 @@ def _html(
             f"<div><dt>{html.escape(name)}</dt><dd>{html.escape(value)}</dd></div>"
             for name, value in facts
         ),
+        "figure": figure,
         "style": (_PARTS / "style.css").read_text(encoding="utf-8"),
         "script": "\n".join(
             (_PARTS / f"{name}.js").read_text(encoding="utf-8") for name in _SCRIPTS

@@ -138,8 +138,12 @@ byId("scale-note").textContent = study.scale < 1
   ? `Pictures are embedded at ${formatted(100 * study.scale)} % of their size; measures are of the originals.`
   : "Pictures are embedded in full size, as half floats, through a table of their view transform.";
 
+byId("colours").hidden = !byId("colours").querySelector("svg");
 new ContactSheet(viewer);
 new Plots(viewer);
 new JobTable(viewer);
 new Photo();
+for (const link of document.querySelectorAll("nav a")) {
+  link.hidden = document.querySelector(link.getAttribute("href")).hidden;
+}
 viewer.set({});

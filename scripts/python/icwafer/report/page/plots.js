@@ -96,7 +96,7 @@ class Plots {
     const atX = (x) => left + (((numeric ? x : this.x.values.indexOf(x)) - lowX) / (highX - lowX || 1)) * (width - left - right);
     const atY = (y) => height - bottom - ((y - lowY) / (highY - lowY || 1)) * (height - top - bottom);
     const title = `${study.measures[this.measure]}, over ${withUnit(this.x)}`;
-    const chart = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title });
+    const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title });
     for (const tick of ticks) {
       chart.append(
         svg("line", { class: "grid", x1: left, x2: width - right, y1: atY(tick), y2: atY(tick) }),

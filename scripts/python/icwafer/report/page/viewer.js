@@ -82,9 +82,11 @@ class Viewer extends EventTarget {
   }
 
   label(mode) {
-    const tags = [...document.querySelectorAll(".pane .tag")];
+    const tags = [...document.querySelectorAll(".pane .tag:not(.right)")];
+    byId("tag-right").hidden = mode !== "slider";
+    byId("tag-right").textContent = `B  ${this.b}`;
     const text = {
-      side: `A  ${this.a}`, slider: `A  ${this.a}  |  B  ${this.b}`,
+      side: `A  ${this.a}`, slider: `A  ${this.a}`,
       flicker: this.showsB ? `B  ${this.b}` : `A  ${this.a}`, difference: `|A − B|`,
       flip: `FLIP of B  ${this.b}  against ${study.reference}`,
       hdr_flip: `HDR-FLIP of B  ${this.b}  against ${study.reference}`,
