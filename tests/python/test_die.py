@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "python
 from icwafer.chips.die import generate  # noqa: E402
 from icwafer.chips.model import MM, Die, DieSpec, Group, Kind  # noqa: E402
 from icwafer.chips.presets.spacing import with_spacing  # noqa: E402
-from icwafer.chips.spread import Clustered, Normal, Uniform  # noqa: E402
+from icwafer.chips.spread import Normal, Uniform  # noqa: E402
 from icwafer.errors import IcwaferError  # noqa: E402
 
 SEEDS = range(12)
@@ -146,7 +146,7 @@ class BadDescriptions(unittest.TestCase):
         narrow = replace(GROUPS[0], spacing_nm=Normal(50, 20))
         negative = replace(GROUPS[0], oxide_nm=Normal(530, -1))
         for spec, words in (
-            (replace(SPEC, groups=GROUPS[:2] + GROUPS[3:]), "MEMORY"),
+            (replace(SPEC, groups=GROUPS[:2] + GROUPS[3:]), "memory"),
             (replace(SPEC, height_mm=4.0), "too small"),
             (replace(SPEC, groups=(narrow, *GROUPS[1:])), "spacing_nm"),
             (replace(SPEC, groups=(negative, *GROUPS[1:])), "oxide_nm"),

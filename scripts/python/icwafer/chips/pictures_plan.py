@@ -11,7 +11,7 @@ on a real chip the cores are mirrored copies of one core and the graphics tiles 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -164,3 +164,9 @@ def _slice(
     ]
 
 
+def _one(rect: Rect, kind: Kind) -> Plan:
+    return plan([rect], kind, [0])
+
+
+def _strips(rects: Sequence[Rect]) -> Plan:
+    return plan(rects, Kind.STRIP, [0] * len(rects))
