@@ -28,7 +28,9 @@ def block_problems(blocks: BlockTable, spec: DieSpec) -> Iterator[str]:
     empty = np.flatnonzero((rect[:, 2:] <= rect[:, :2]).any(axis=1))
     if len(empty):
         yield f"block {empty[0] + 1}, {_spelled(rect[empty[0]])}, has no area"
-    outside = np.flatnonzero((rect[:, :2] < 0).any(axis=1) | (rect[:, 2:] > size_nm(spec)).any(axis=1))
+    outside = np.flatnonzero(
+        (rect[:, :2] < 0).any(axis=1) | (rect[:, 2:] > size_nm(spec)).any(axis=1)
+    )
     if len(outside):
         yield (
             f"block {outside[0] + 1}, {_spelled(rect[outside[0]])}, is not inside the die of "

@@ -13,7 +13,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from icwafer.chips.blocks import block_problems
-from icwafer.chips.model import BlockTable, DieSpec, Group, Layout
+from icwafer.chips.model import DieSpec, Group, Layout
+from icwafer.chips.outline import MARKS
+from icwafer.chips.placement import RETICLE_MM, reticle_field, test_dies_mm
 from icwafer.chips.rules import Rule, rule_of
 from icwafer.chips.spread import Clustered, Spread, Uniform
 from icwafer.chips.suggest import unknown
@@ -21,12 +23,6 @@ from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
 
 Path = tuple[str | int, ...]
-
-#: SEMI M1: the diameters of polished wafers, and the marks that they come with.
-DIAMETERS_MM = {100: ("flats",), 125: ("flats",), 150: ("flats", "notch"), 200: ("notch",), 300: ("notch",)}
-
-#: Largest field of a wafer scanner.
-RETICLE_MM = (26.0, 33.0)
 
 
 @dataclass(frozen=True)
@@ -97,31 +93,37 @@ def _wafer_problems(layout: Layout, wafer: Wafer) -> Iterator[Problem]:
     yield from _field_problems(wafer, ("wafer",))
     for name in ("oxide", "groove", "width"):
         yield from _field_problems(getattr(wafer, name), ("wafer", name))
-    if wafer.diameter_mm not in DIAMETERS_MM:
-        sizes = ", ".join(map(str, DIAMETERS_MM))
+    if wafer.diameter_mm not in MARKS:
+        sizes = ", ".join(map(str, MARKS))
         yield Problem(("wafer", "diameter_mm"), f"{wafer.diameter_mm} is not one of {sizes}")
-    elif wafer.mark not in (*DIAMETERS_MM[wafer.diameter_mm], "none"):
-        marks = " or ".join((*DIAMETERS_MM[wafer.diameter_mm], "none"))
+        return
+    marks = (*MARKS[wafer.diameter_mm], "none")
+    if wafer.mark not in marks:
+        text = f"'{wafer.mark}' is not made on {wafer.diameter_mm} mm: use {' or '.join(marks)}"
+        yield Problem(("wafer", "mark"), text)
+        return
+    product = layout.dies[0]
+    if reticle_field(product, wafer) is None:
+        count = f"{max(1, wafer.field_columns)} x {max(1, wafer.field_rows)}"
         yield Problem(
-            ("wafer", "mark"),
-            f"'{wafer.mark}' is not made on {wafer.diameter_mm} mm: use {marks}",
+            ("wafer", "field_columns" if wafer.field_columns > 1 else "field_rows"),
+            f"{count} dies of {product.width_mm:g} x {product.height_mm:g} mm are more than a "
+            f"reticle holds, {RETICLE_MM[0]:g} x {RETICLE_MM[1]:g} mm: make the dies smaller or "
+            "fewer",
         )
-    product, lane = layout.dies[0], wafer.scribe_um / 1000
-    for axis, (name, count, size) in enumerate(
-        (
-            ("field_columns", wafer.field_columns, product.width_mm),
-            ("field_rows", wafer.field_rows, product.height_mm),
-        )
-    ):
-        extent = max(1, count) * (size + lane)
-        if count and extent - lane > max(RETICLE_MM):
-            yield Problem(
-                ("wafer", name),
-                f"{count} dies of {size:g} mm need {extent - lane:g} mm, but a reticle holds "
-                f"{RETICLE_MM[0]:g} x {RETICLE_MM[1]:g} mm",
-            )
+        return
     if wafer.test_fields and len(layout.dies) < 2:
         yield Problem(("wafer", "test_fields"), "there is no second die to stand there: add one")
+        return
+    for index, place in enumerate(wafer.test_fields):
+        if place in wafer.test_fields[:index]:
+            yield Problem(("wafer", "test_fields", index), f"field {list(place)} is there twice")
+        if not len(test_dies_mm(layout, place)):
+            yield Problem(
+                ("wafer", "test_fields", index),
+                f"field {list(place)} is not wholly on the wafer, or too small for the die "
+                f"'{layout.dies[1].name}': choose one nearer to [0, 0]",
+            )
 
 
 def _twice(names: list[str], path: Path) -> Iterator[Problem]:
@@ -163,7 +165,11 @@ def _spread_problem(spread: Spread, rule: Rule) -> str:
     if not (math.isfinite(own) and own >= 0):
         return f"deviation {own:g} is outside 0 and above"
     if not (rule.allows(spread.low) and rule.allows(spread.high)):
-        reach = f"{spread.low:g}" if spread.low == spread.high else f"{spread.low:g} to {spread.high:g}"
+        reach = (
+            f"{spread.low:g}"
+            if spread.low == spread.high
+            else f"{spread.low:g} to {spread.high:g}"
+        )
         return f"{reach} is outside {rule.range}" + (
             "; a normal spread reaches three deviations" if spread.deviation > 0 else ""
         )

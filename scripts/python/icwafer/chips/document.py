@@ -32,6 +32,7 @@ FORMAT = "icwafer-layout"
 VERSION = 1
 ENDING = ".layout.toml"
 
+
 def read_layout(path: Path) -> Layout:
     """Reads and checks a layout file.
 
@@ -53,7 +54,7 @@ def parse_layout(text: str, name: str) -> Layout:
         raise IcwaferError(f"{name}: not valid TOML: {reason}; correct it") from None
     found = document.pop("format", None)
     if found != FORMAT:
-        raise IcwaferError(f"{name}:1: no layout file: it must begin with format = \"{FORMAT}\"")
+        raise IcwaferError(f'{name}:1: no layout file: it must begin with format = "{FORMAT}"')
     version = document.pop("version", None)
     if version != VERSION or isinstance(version, bool):
         raise IcwaferError(

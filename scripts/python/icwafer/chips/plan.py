@@ -21,12 +21,14 @@ class Plan:
     macro: (n,) int64; blocks of one macro belong to one group of wires.
     cell: (n,) int64, every number from 0 up to the largest is there; blocks of one cell are copies
     of each other and share their wires.
+    roles: for each macro, the name of the group that it asks for, or ""; no macro asks if empty.
     """
 
     rect_nm: np.ndarray
     kind: np.ndarray
     macro: np.ndarray
     cell: np.ndarray
+    roles: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.rect_nm)

@@ -115,7 +115,7 @@ def _blocks(table: dict, groups: tuple[Group, ...], path: Path) -> BlockTable:
 
 def _row(row: object, names: dict[str, int], path: Path) -> tuple[float, ...]:
     if not isinstance(row, list) or len(row) != 5:
-        raise Unreadable(path, f"{row!r:.60} is not [x0, y0, x1, y1, \"group\"]")
+        raise Unreadable(path, f'{row!r:.60} is not [x0, y0, x1, y1, "group"]')
     *corners, name = row
     if not isinstance(name, str) or name not in names:
         raise Unreadable(path, unknown("group", str(name), names))

@@ -28,9 +28,10 @@ Share = Union[float, tuple[float, float]]
 
 @dataclass(frozen=True)
 class Macro:
-    """One macro of a kind."""
+    """One macro of a kind, of the group named like its role if the die has such a group."""
 
     kind: Kind
+    role: str = ""
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,9 @@ def tree_plan(
     blocks = fill(rng, np.array(layout.rects), np.array(layout.kinds), round(block_um * UM))
     starts = np.searchsorted(blocks.macro, np.arange(len(layout.rects) + 1))
     rect, block = _unfold(_Copies(piece, die, np.array([die]), flips), blocks.rect_nm, starts)
-    return Plan(rect, blocks.kind[block], blocks.macro[block], blocks.cell[block])
+    return Plan(
+        rect, blocks.kind[block], blocks.macro[block], blocks.cell[block], tuple(layout.roles)
+    )
 
 
 @dataclass
@@ -138,10 +141,11 @@ class _Layout:
     rng: np.random.Generator
     rects: list[Rect] = field(default_factory=list)
     kinds: list[Kind] = field(default_factory=list)
+    roles: list[str] = field(default_factory=list)
 
     def place(self, node: Node, rect: Rect) -> _Piece:
         if isinstance(node, Macro):
-            return self._macros([rect], [node.kind])
+            return self._macros([rect], [node.kind], [node.role])
         if isinstance(node, Cut):
             return [self.place(p.node, r) for p, r in zip(node.parts, self._cut(node, rect))]
         if isinstance(node, Twins):
@@ -157,10 +161,11 @@ class _Layout:
         sides, inside = _fitting_frame(rect, round(node.um * UM))
         return [*(self.place(node.side, side) for side in sides), self.place(node.inside, inside)]
 
-    def _macros(self, rects: Sequence[Rect], kinds: Sequence[Kind]) -> range:
+    def _macros(self, rects: Sequence[Rect], kinds: Sequence[Kind], roles: Sequence[str]) -> range:
         first = len(self.rects)
         self.rects += rects
         self.kinds += kinds
+        self.roles += roles
         return range(first, len(self.rects))
 
     def _cut(self, node: Cut, rect: Rect) -> list[Rect]:
@@ -223,9 +228,8 @@ class _Layout:
         bounds = np.cumsum(shares) / sum(shares) * len(rects)
         dealt = np.searchsorted(np.round(bounds), np.arange(len(rects)) + 0.5)
         order = self.rng.permutation(len(rects))
-        return self._macros(
-            [tuple(r) for r in rects.tolist()], [kinds[dealt[place]] for place in order]
-        )
+        dealt_kinds = [kinds[dealt[place]] for place in order]
+        return self._macros([tuple(r) for r in rects.tolist()], dealt_kinds, [""] * len(rects))
 
 
 def _unfold(

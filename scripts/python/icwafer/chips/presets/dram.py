@@ -11,17 +11,15 @@ cells of 2F x 3F and F = 65 nm they are 16 F = 1040 nm apart, and half of that i
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
+from icwafer.chips.presets import test_chip
 from icwafer.chips.presets.metals import SKY130_MET2, SKY130_MET4, Metal
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
     STRIP,
-    WIDTH_DRIFT,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring, Tiles, Twins
-from icwafer.chips.wafer import Wafer
 
 _WORD_LINES = Metal(1040, 520, 300)
 
@@ -73,6 +71,7 @@ LAYOUT = Layout(
                 *dark_groups(SKY130_MET4),
             ),
         ),
+        test_chip.DIE,
     ),
-    wafer=Wafer(partial_dies=True, oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(test_fields=((-3, 1), (-3, -2)), partial_dies=True),
 )
