@@ -96,6 +96,11 @@ class EveryPreset(unittest.TestCase):
                     len(generate(replace(spec, block_um=spec.block_um / 2))), 1.5 * count, name
                 )
 
+    def test_blocks_too_many_are_refused_at_once(self) -> None:
+        large = replace(SPECS["graphics"], block_um=2.0)
+        with self.assertRaisesRegex(IcwaferError, "more than 20000000 blocks: use 7 or more"):
+            generate(large)
+
     def test_dies_too_small_say_so(self) -> None:
         refused = set()
         for name in floorplan_names():

@@ -37,8 +37,8 @@ version = 1
 
 [[dies]]
 name = "a # b"
-width_mm = 0.02
-height_mm = 0.01
+width_mm = 0.2
+height_mm = 0.1
 
 [[dies.groups]]
 name = 'x'

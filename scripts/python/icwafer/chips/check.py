@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from icwafer.chips.blocks import block_problems
-from icwafer.chips.model import DieSpec, Group, Layout
+from icwafer.chips.model import MAX_BLOCKS, MAX_DIES, DieSpec, Group, Layout, size_nm
 from icwafer.chips.outline import MARKS
 from icwafer.chips.placement import RETICLE_MM, reticle_field, test_dies_mm
 from icwafer.chips.rules import Rule, rule_of
@@ -71,6 +71,10 @@ def _die_problems(spec: DieSpec, path: Path) -> Iterator[Problem]:
     yield from _twice([group.name for group in spec.groups], (*path, "groups"))
     for index, group in enumerate(spec.groups):
         yield from group_problems(group, (*path, "groups", index))
+    if spec.blocks is None and size_nm(spec).area_um2 > MAX_BLOCKS * spec.block_um**2:
+        least = math.ceil((size_nm(spec).area_um2 / MAX_BLOCKS) ** 0.5)
+        text = f"{spec.block_um:g} makes more than {MAX_BLOCKS} blocks: use {least} or more"
+        yield Problem((*path, "block_um"), text)
     if spec.blocks is not None:
         for text in block_problems(spec.blocks, spec):
             yield Problem((*path, "blocks"), text)
@@ -110,6 +114,15 @@ def _wafer_problems(layout: Layout, wafer: Wafer) -> Iterator[Problem]:
             f"{count} dies of {product.width_mm:g} x {product.height_mm:g} mm are more than a "
             f"reticle holds, {RETICLE_MM[0]:g} x {RETICLE_MM[1]:g} mm: make the dies smaller or "
             "fewer",
+        )
+        return
+    lane_mm = wafer.scribe_um / 1000
+    pitch_mm2 = (product.width_mm + lane_mm) * (product.height_mm + lane_mm)
+    if wafer.diameter_mm**2 > MAX_DIES * pitch_mm2:
+        yield Problem(
+            ("dies", 0, "width_mm"),
+            f"so small a die is there more than {MAX_DIES} times on a wafer of "
+            f"{wafer.diameter_mm} mm: make it larger or leave [wafer] out",
         )
         return
     if wafer.test_fields and len(layout.dies) < 2:
