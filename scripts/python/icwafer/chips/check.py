@@ -12,7 +12,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from icwafer.chips.blocks import block_problems
+from icwafer.chips.blocks import block_problems, overlap_problems
+from icwafer.chips.lines import FieldPath
 from icwafer.chips.model import MAX_BLOCKS, MAX_DIES, DieSpec, Group, Layout, size_nm
 from icwafer.chips.outline import MARKS
 from icwafer.chips.placement import RETICLE_MM, reticle_field, test_dies_mm
@@ -22,18 +23,16 @@ from icwafer.chips.suggest import unknown
 from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
 
-Path = tuple[str | int, ...]
-
 
 @dataclass(frozen=True)
 class Problem:
     """path: where, from the layout down, indices from 0. text: what, and what is allowed."""
 
-    path: Path
+    path: FieldPath
     text: str
 
 
-def spelled(path: Path) -> str:
+def spelled(path: FieldPath) -> str:
     """A path as a message says it, counting from 1: `dies[1].groups[3].width_nm`."""
     words = ""
     for step in path:
@@ -47,7 +46,8 @@ def check_layout(layout: Layout) -> None:
 
 
 def check_die(spec: DieSpec) -> None:
-    """Raises IcwaferError for the first problem of a die."""
+    """Raises IcwaferError for the first problem of a die; that listed blocks overlap is none here,
+    because finding that takes long: `check_layout` does it, and so do reading and writing."""
     _raise_first(_die_problems(spec, (f"die '{spec.name}'",)))
 
 
@@ -56,6 +56,9 @@ def problems(layout: Layout) -> Iterator[Problem]:
     yield from _field_problems(layout, ())
     for index, spec in enumerate(layout.dies):
         yield from _die_problems(spec, ("dies", index))
+        if spec.blocks is not None:
+            for text in overlap_problems(spec.blocks):
+                yield Problem(("dies", index, "blocks"), text)
     yield from _twice([spec.name for spec in layout.dies], ("dies",))
     if layout.wafer is not None:
         yield from _wafer_problems(layout, layout.wafer)
@@ -66,7 +69,7 @@ def _raise_first(found: Iterator[Problem]) -> None:
         raise IcwaferError(f"{spelled(problem.path)}: {problem.text}")
 
 
-def _die_problems(spec: DieSpec, path: Path) -> Iterator[Problem]:
+def _die_problems(spec: DieSpec, path: FieldPath) -> Iterator[Problem]:
     yield from _field_problems(spec, path)
     yield from _twice([group.name for group in spec.groups], (*path, "groups"))
     for index, group in enumerate(spec.groups):
@@ -78,9 +81,10 @@ def _die_problems(spec: DieSpec, path: Path) -> Iterator[Problem]:
     if spec.blocks is not None:
         for text in block_problems(spec.blocks, spec):
             yield Problem((*path, "blocks"), text)
+            return
 
 
-def group_problems(group: Group, path: Path) -> Iterator[Problem]:
+def group_problems(group: Group, path: FieldPath) -> Iterator[Problem]:
     """All problems of a group."""
     yield from _field_problems(group, path)
     for width, spacing in (("width_nm", "spacing_nm"), ("cross_width_nm", "cross_spacing_nm")):
@@ -139,13 +143,15 @@ def _wafer_problems(layout: Layout, wafer: Wafer) -> Iterator[Problem]:
             )
 
 
-def _twice(names: list[str], path: Path) -> Iterator[Problem]:
+def _twice(names: list[str], path: FieldPath) -> Iterator[Problem]:
+    seen = set()
     for index, name in enumerate(names):
-        if name in names[:index]:
+        if name in seen:
             yield Problem((*path, index, "name"), f"'{name}' is already taken: choose another")
+        seen.add(name)
 
 
-def _field_problems(thing: object, path: Path) -> Iterator[Problem]:
+def _field_problems(thing: object, path: FieldPath) -> Iterator[Problem]:
     """Values of a dataclass outside their rules; dataclasses inside it have their own checks."""
     for declared in dataclasses.fields(thing):
         value, here = getattr(thing, declared.name), (*path, declared.name)
