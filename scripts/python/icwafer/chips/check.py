@@ -16,7 +16,7 @@ from icwafer.chips.blocks import block_problems, overlap_problems
 from icwafer.chips.lines import FieldPath
 from icwafer.chips.model import MAX_BLOCKS, MAX_DIES, DieSpec, Group, Layout, size_nm
 from icwafer.chips.outline import MARKS
-from icwafer.chips.placement import RETICLE_MM, reticle_field, test_dies_mm
+from icwafer.chips.placement import RETICLE_MM, reticle_field, test_field_dies_mm
 from icwafer.chips.rules import Rule, rule_of
 from icwafer.chips.spread import Clustered, Spread, Uniform
 from icwafer.chips.suggest import unknown
@@ -135,7 +135,7 @@ def _wafer_problems(layout: Layout, wafer: Wafer) -> Iterator[Problem]:
     for index, place in enumerate(wafer.test_fields):
         if place in wafer.test_fields[:index]:
             yield Problem(("wafer", "test_fields", index), f"field {list(place)} is there twice")
-        if not len(test_dies_mm(layout, place)):
+        if not len(test_field_dies_mm(layout, place)):
             yield Problem(
                 ("wafer", "test_fields", index),
                 f"field {list(place)} is not wholly on the wafer, or too small for the die "
