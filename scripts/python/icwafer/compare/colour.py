@@ -11,13 +11,13 @@ from pathlib import Path
 import numpy as np
 import PyOpenColorIO as ocio
 
-from icwafer import layout
+from icwafer import paths
 from icwafer.compare import srgb
 from icwafer.errors import InputError
 
 #: Configurations to look for: the built Blender's, then that of Debian's package.
 CONFIGURATIONS = (
-    layout.INSTALLED / layout.host_version().rpartition(".")[0]
+    paths.INSTALLED / paths.host_version().rpartition(".")[0]
     / "datafiles" / "colormanagement" / "config.ocio",
     Path("/usr/share/blender/datafiles/colormanagement/config.ocio"),
 )  # fmt: skip

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,17 +34,11 @@ against a photograph:
   Status 0 unless a --fail-hue or --fail-bands threshold is passed.
 """
 
-def register(commands: argparse._SubParsersAction) -> None:
-    """Adds the subcommand's parser."""
-    text = "compare two images, or a render with a photograph, for people and for scripts"
-    parser = commands.add_parser(
-        "compare",
-        help=text,
-        description=text,
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
+    """Adds the subcommand; `add` makes a parser of a name and a help text."""
+    parser = add("compare", "compare two images, or a render with a photograph")
+    parser.epilog = _EPILOG
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.add_argument("images", type=Path, nargs="+", metavar="IMAGE", help="A (the reference) B")
     parser.add_argument("--layer", metavar="NAME", help="of an EXR, as ViewLayer.Combined")
     parser.add_argument(

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
 
-def register(commands: argparse._SubParsersAction) -> None:
-    """Adds the subcommand's parser."""
-    text = "one HTML page on which the renders of a study are compared"
-    parser = commands.add_parser("report", help=text, description=text, allow_abbrev=False)
+def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
+    """Adds the subcommand; `add` makes a parser of a name and a help text."""
+    parser = add("report", "one HTML page on which the renders of a study are compared")
     parser.add_argument("folder", type=Path, metavar="DIR", help="what icwafer render wrote")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="the page; DIR/report.html"
