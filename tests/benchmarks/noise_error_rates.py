@@ -43,9 +43,7 @@ def render(
         "samples": samples,
         "renders": renders,
     }
-    host.run_inside(
-        host.built_blender(), "render_seeds", parameters, folder=folder, seconds=7200
-    )
+    host.run_inside(host.built_blender(), "render_seeds", parameters, folder=folder, seconds=7200)
     return {
         name: [images.read(folder / f"{name}-{i}.exr").pixels for i in range(count)]
         for name, (_, count) in sets.items()
@@ -64,7 +62,9 @@ def main() -> None:
     size = (arguments.width, arguments.width * 9 // 16)
     pairs = arguments.pairs
     start = time.monotonic()
-    sets = {f"changed {change:g}": (1 + change, 2 * min(pairs, 25)) for change in arguments.changes}
+    sets = {
+        f"changed {change:g}": (1 + change, 2 * min(pairs, 25)) for change in arguments.changes
+    }
     others = render(
         host.fresh_folder("noise_error_rates"),
         sets | {"same": (1.0, 4 * pairs)},

@@ -20,7 +20,9 @@ class RealNoise(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         folder = host.fresh_folder("noise_test")
-        names = [f"{kind}-{i}" for kind, count in (("same", 4), ("changed", 2)) for i in range(count)]
+        names = [
+            f"{kind}-{i}" for kind, count in (("same", 4), ("changed", 2)) for i in range(count)
+        ]
         host.run_inside(
             host.built_blender(),
             "render_seeds",

@@ -91,7 +91,9 @@ class Browser:
         """Does something that makes the page draw, and waits until it has."""
         before = self.js("return Number(document.documentElement.dataset.drawn)")
         action()
-        self.wait(lambda: self.js("return Number(document.documentElement.dataset.drawn)") > before)
+        self.wait(
+            lambda: self.js("return Number(document.documentElement.dataset.drawn)") > before
+        )
 
     def colour(self, canvas: str, x: float, y: float) -> list[int]:
         """Of a canvas at a place in shares of its size: red, green, blue."""
@@ -120,5 +122,7 @@ class Browser:
         ]
         own = self.driver.current_url.split("#")[0]
         return [
-            url for url in urls if not url.startswith(("data:", "blob:")) and url.split("#")[0] != own
+            url
+            for url in urls
+            if not url.startswith(("data:", "blob:")) and url.split("#")[0] != own
         ]

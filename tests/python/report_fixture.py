@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 import numpy as np
-from test_compare import write_image
+from compare_support import write_image
 
 SIZE = (48, 30)
 SPACINGS = (900.0, 1000.0, 1100.0)

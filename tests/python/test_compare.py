@@ -3,35 +3,19 @@
 
 from __future__ import annotations
 
-import json
 import math
 import unittest
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO as oiio
 import PyOpenColorIO as ocio
-from support import CommandCase
+from compare_support import CompareCase
 
-from icwafer import packages
 from icwafer.compare import colour, images, metrics
 
-RAMP = np.stack(np.meshgrid(np.linspace(0, 1, 32), np.linspace(0, 1, 24)) + [np.full((24, 32), 0.5)], -1)
-
-
-def write_image(
-    path: Path, pixels: np.ndarray, channels: tuple[str, ...] = ("R", "G", "B")
-) -> Path:
-    """PNG as 8 bit, EXR as float."""
-    height, width = pixels.shape[:2]
-    kind = oiio.FLOAT if path.suffix == ".exr" else oiio.UINT8
-    spec = oiio.ImageSpec(width, height, len(channels), kind)
-    spec.channelnames = channels
-    file = oiio.ImageOutput.create(str(path))
-    assert file.open(str(path), spec), file.geterror()
-    assert file.write_image(np.ascontiguousarray(pixels, dtype=np.float32)), file.geterror()
-    file.close()
-    return path
+RAMP = np.stack(
+    [*np.meshgrid(np.linspace(0, 1, 32), np.linspace(0, 1, 24)), np.full((24, 32), 0.5)], axis=-1
+)
 
 
 def acescg_config(path: Path) -> Path:
@@ -57,28 +41,6 @@ def acescg_config(path: Path) -> Path:
     config.addDisplayView("Plain", "Working", "ACEScg")
     path.write_text(config.serialize(), encoding="utf-8")
     return path
-
-
-class CompareCase(CommandCase):
-    def setUp(self) -> None:
-        super().setUp()
-        self.replace(packages, install=lambda *purposes: None)
-        # The same without a configuration on every machine.
-        self.replace(colour, CONFIGURATIONS=())
-        self.set_environment(OCIO="")
-
-    def image(self, name: str, pixels: np.ndarray, *channels: str) -> str:
-        return str(write_image(self.folder / name, pixels, channels or ("R", "G", "B")))
-
-    def compare(self, status: int, *arguments: str) -> str:
-        actual, out, err = self.icwafer("compare", *arguments)
-        self.assertEqual(actual, status, out + err)
-        return out
-
-    def result(self, status: int, *arguments: str) -> dict:
-        path = self.folder / "result.json"
-        self.compare(status, *arguments, "--json", str(path))
-        return json.loads(path.read_text())
 
 
 class Status(CompareCase):
@@ -122,6 +84,7 @@ class OddImages(CompareCase):
         b = self.image("b.exr", np.repeat(np.repeat(RAMP, 2, 0), 2, 1))
         self.expect_error(["compare", a, b], 2, "32x24", "64x48", "--fit")
         self.assertIn("was resampled from 64x48 to 32x24", self.compare(1, a, b, "--fit"))
+        self.expect_error(["compare", a, b, "--fit", "--html", "x.html"], 2, "--html needs")
         c = self.image("c.exr", RAMP[:, :20])
         self.expect_error(["compare", a, c, "--fit"], 2, "another shape")
 

@@ -54,7 +54,8 @@ class Angles(unittest.TestCase):
         )
         point = np.array([120.0, -70.0, 0.0])
         q = sum(
-            (end - point) / np.linalg.norm(end - point) for end in (light, np.array([0, 0, 1000.0]))
+            (end - point) / np.linalg.norm(end - point)
+            for end in (light, np.array([0, 0, 1000.0]))
         )
         self.assertAlmostEqual(u[0], q @ [-0.5, math.sqrt(0.75), 0], places=9)
         self.assertAlmostEqual(v[0], q @ [math.sqrt(0.75), 0.5, 0], places=9)
@@ -63,7 +64,11 @@ class Angles(unittest.TestCase):
         """Turning everything together changes nothing."""
         angle = math.radians(40)
         turn = np.array(
-            [[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]]
+            [
+                [1, 0, 0],
+                [0, math.cos(angle), -math.sin(angle)],
+                [0, math.sin(angle), math.cos(angle)],
+            ]
         )
         camera = Camera((50.0, -400.0, 500.0), (0.0, 0.0, 0.0))
         turned = Camera(tuple(turn @ camera.position_mm), (0.0, 0.0, 0.0))

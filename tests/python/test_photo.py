@@ -8,7 +8,7 @@ import unittest
 from xml.etree import ElementTree
 
 import numpy as np
-from test_compare import CompareCase
+from compare_support import CompareCase
 
 from icwafer.compare import hues, rectify, srgb
 from icwafer.errors import InputError
@@ -93,6 +93,7 @@ class Hues(unittest.TestCase):
 
     def test_turned_hues(self) -> None:
         """Two pictures of one hue each are as far apart as the hues, also across 0 degrees."""
+
         def flat(hue_deg: float) -> np.ndarray:
             a, b = 0.1 * np.cos(np.radians(hue_deg)), 0.1 * np.sin(np.radians(hue_deg))
             return np.broadcast_to(hues.from_oklab(np.array([0.7, a, b])), (8, 8, 3))

@@ -12,8 +12,8 @@ from unittest import mock
 
 import numpy as np
 import OpenImageIO as oiio
+from compare_support import CompareCase, write_image
 from report_fixture import REFERENCE, SIZE, picture, write_study
-from test_compare import CompareCase, write_image
 
 from icwafer.compare import colour, flip, metrics
 from icwafer.report import encode, study
@@ -88,9 +88,7 @@ class Load(CompareCase):
         errors = {job.id: job.error for job in loaded.jobs if job.error}
         self.assertEqual(errors["broken"], "Blender ended with signal 11")
         self.assertIn("not rendered yet", errors["unfinished"])
-        self.assertEqual(
-            loaded.command, f"icwafer render study.toml -o {self.study}"
-        )
+        self.assertEqual(loaded.command, f"icwafer render study.toml -o {self.study}")
         self.assertEqual(loaded.jobs[-1].gratings[0].spacing_nm, 2000)
 
     def test_only_the_jobs_of_the_study(self) -> None:
@@ -172,9 +170,7 @@ class Write(CompareCase):
         text = page.read_text()
         start = text.index(f'data-name="pixels:{REFERENCE}"')
         blob = text[text.index(">", start) + 1 : text.index("<", start)]
-        self.assertEqual(
-            blob, encode.half_floats(picture(1000, 0.01).astype(np.float32))
-        )
+        self.assertEqual(blob, encode.half_floats(picture(1000, 0.01).astype(np.float32)))
         self.assertNotIn('data-name="hdr_flip', text)
 
     def test_the_page_can_be_kept_small(self) -> None:
@@ -209,14 +205,18 @@ class Write(CompareCase):
             for row, lobe in enumerate((0.01, 0.03)):
                 x, y = left + column * cell[0] + 160, top + row * cell[1] + cell[1] // 2
                 truth = picture(spacing, lobe)
-                middle = truth[SIZE[1] // 2 - 1 : SIZE[1] // 2 + 1, SIZE[0] // 2 - 1 : SIZE[0] // 2 + 1]
+                middle = truth[
+                    SIZE[1] // 2 - 1 : SIZE[1] // 2 + 1, SIZE[0] // 2 - 1 : SIZE[0] // 2 + 1
+                ]
                 shown = colour.SRGB_CURVE.encode(middle).mean(axis=(0, 1))
                 if (spacing, lobe) == (1100, 0.03):
                     shown = np.clip(middle, 0, 1).mean(axis=(0, 1))
                 np.testing.assert_allclose(sheet[y, x], shown, atol=0.1)
 
     def test_compare_writes_a_page(self) -> None:
-        paths = [str(self.study / "jobs" / f"spacing{s}-lobe0.01" / "image.exr") for s in (900, 1000)]
+        paths = [
+            str(self.study / "jobs" / f"spacing{s}-lobe0.01" / "image.exr") for s in (900, 1000)
+        ]
         page = self.folder / "compare.html"
         status, _, err = self.icwafer("compare", *paths, "--html", str(page))
         self.assertEqual(status, 1, err)

@@ -10,10 +10,10 @@ from unittest import mock
 
 import numpy as np
 from browser import Browser
+from compare_support import write_image
 from report_fixture import REFERENCE, SIZE, picture, write_study
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
-from test_compare import write_image
 
 from icwafer.compare import colour, srgb
 from icwafer.report import study
@@ -195,7 +195,9 @@ class Wide(PageCase):
         names = a.get_attribute("value"), b.get_attribute("value")
         canvas = self.browser.one("#first")
         self.browser.js("arguments[0].focus()", canvas)
-        self.browser.drawn_after(lambda: self.browser.driver.switch_to.active_element.send_keys(" "))
+        self.browser.drawn_after(
+            lambda: self.browser.driver.switch_to.active_element.send_keys(" ")
+        )
         self.assertEqual((b.get_attribute("value"), a.get_attribute("value")), names)
         before = self.browser.js("return document.getElementById('first').toDataURL()")
         for key, changes in (("+", True), (Keys.ARROW_LEFT, True), ("0", False)):
@@ -248,9 +250,7 @@ class Wide(PageCase):
                 lambda count=count: self.browser.one("#filter-count").text == f"{count} of 8"
             )
             self.assertEqual(len(self.browser.all("#jobs tbody tr")), count)
-        self.browser.drawn_after(
-            self.browser.one(f"[aria-label='Make {OTHER} A']").click
-        )
+        self.browser.drawn_after(self.browser.one(f"[aria-label='Make {OTHER} A']").click)
         self.assertEqual(self.browser.one("#pick-a").get_attribute("value"), OTHER)
 
     def test_settings_and_command(self) -> None:
@@ -301,9 +301,7 @@ class Wide(PageCase):
         line = self.browser.one("#photo-line").text
         self.assertTrue(line.startswith("icwafer compare --photo 'photo it'\\''s.png' --corners "))
         corners = [tuple(map(float, word.split(","))) for word in line.split()[-5:-1]]
-        np.testing.assert_allclose(
-            corners, [(50, 50), (350, 60), (360, 260), (30, 250)], atol=1.5
-        )
+        np.testing.assert_allclose(corners, [(50, 50), (350, 60), (360, 260), (30, 250)], atol=1.5)
 
     def test_every_control_has_a_name(self) -> None:
         """What a screen reader says, from Chromium's own accessibility tree."""

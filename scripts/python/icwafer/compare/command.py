@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from icwafer.compare.measures import MEASURES
 from icwafer.errors import IcwaferError, InputError
+from icwafer.files import replacing
 from icwafer.report.command import add_view_options
 
 if TYPE_CHECKING:
@@ -34,12 +34,15 @@ against a photograph:
   Status 0 unless a --fail-hue or --fail-bands threshold is passed.
 """
 
+
 def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
     """Adds the subcommand; `add` makes a parser of a name and a help text."""
     parser = add("compare", "compare two images, or a render with a photograph")
     parser.epilog = _EPILOG
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
-    parser.add_argument("images", type=Path, nargs="+", metavar="IMAGE", help="A (the reference) B")
+    parser.add_argument(
+        "images", type=Path, nargs="+", metavar="IMAGE", help="A (the reference) B"
+    )
     parser.add_argument("--layer", metavar="NAME", help="of an EXR, as ViewLayer.Combined")
     parser.add_argument(
         "--fit", action="store_true", help="resample the larger image to the smaller one's size"
@@ -134,8 +137,11 @@ def _images(arguments: argparse.Namespace) -> int:
     }
     view = view_transform(arguments.ocio, arguments.view, arguments.look)
     a, b, *second = (
-        images.read(path, arguments.layer) for path in (*arguments.images, *(arguments.second or ()))
+        images.read(path, arguments.layer)
+        for path in (*arguments.images, *(arguments.second or ()))
     )
+    if arguments.html and a.size != b.size:
+        raise InputError("--html needs images of one size; render both at one size")
     found = comparison.compare(
         a,
         b,
@@ -261,6 +267,5 @@ def _write_page(
 
 
 def _write_json(path: Path, result: dict[str, Any]) -> None:
-    part = path.with_name(f".part-{path.name}")
-    part.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    os.replace(part, path)
+    with replacing(path) as unfinished:
+        unfinished.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n", "utf-8")

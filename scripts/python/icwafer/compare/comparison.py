@@ -14,6 +14,7 @@ from icwafer.compare.colour import ViewTransform
 from icwafer.compare.images import Image
 from icwafer.errors import InputError
 
+
 @dataclass(frozen=True)
 class Comparison:
     """What was compared, how, and what was found.
@@ -94,13 +95,14 @@ def compare(
     a, b = images.same_size(a, b, fit)
     renders = [a, b, *(second or ())]
     linear = all(image.linear for image in renders)
-    bad = a.bad | b.bad
-
-    def values(image: Image) -> np.ndarray:
+    for image in renders:
         if image.size != a.size:
             raise InputError(f"{image.path} has another size than {a.path}; render them alike")
+    bad = np.logical_or.reduce([image.bad for image in renders])
+
+    def values(image: Image) -> np.ndarray:
         pixels = image.pixels if linear or not image.linear else view.encode(image.pixels)
-        return np.where((bad | image.bad)[..., None], np.float32(0), pixels)
+        return np.where(bad[..., None], np.float32(0), pixels)
 
     pixels = [values(image) for image in renders]
     shown = [view.encode(image) for image in pixels[:2]] if linear else pixels[:2]

@@ -184,9 +184,7 @@ def _colour_difference(reference: np.ndarray, test: np.ndarray) -> np.ndarray:
     difference = _hyab(reference, test) ** _COLOUR_EXPONENT
     knee = _KNEE * largest
     above = _KNEE_VALUE + (difference - knee) / (largest - knee) * (1 - _KNEE_VALUE)
-    return np.clip(
-        np.where(difference < knee, _KNEE_VALUE / knee * difference, above), 0.0, 1.0
-    )
+    return np.clip(np.where(difference < knee, _KNEE_VALUE / knee * difference, above), 0.0, 1.0)
 
 
 def _feature_difference(reference: np.ndarray, test: np.ndarray, ppd: float) -> np.ndarray:

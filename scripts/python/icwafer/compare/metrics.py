@@ -33,7 +33,11 @@ def errors(first: np.ndarray, second: np.ndarray) -> Errors:
     # OpenImageIO says 0 dB less a guard value for equal images.
     psnr = math.inf if found.rms_error == 0 else -20 * math.log10(found.rms_error)
     return Errors(
-        found.meanerror, found.rms_error, psnr, found.maxerror, (found.maxx, found.maxy, found.maxc)
+        found.meanerror,
+        found.rms_error,
+        psnr,
+        found.maxerror,
+        (found.maxx, found.maxy, found.maxc),
     )
 
 

@@ -65,9 +65,7 @@ class NoiseTest:
     rms_beyond: float | None
 
 
-def compare(
-    a: Sequence[np.ndarray], b: Sequence[np.ndarray], level: float = 0.01
-) -> NoiseTest:
+def compare(a: Sequence[np.ndarray], b: Sequence[np.ndarray], level: float = 0.01) -> NoiseTest:
     """Tests one or two renders of each scene, height x width x 3, linear or encoded.
 
     Rejects two renders of the same scene with at most the probability `level`. The renders of one
@@ -140,9 +138,7 @@ def _self_normalised(x: np.ndarray, size: int) -> np.ndarray:
     padded[: x.shape[0], : x.shape[1]] = x
     tiles = padded.reshape(rows, size, columns, size, x.shape[2])
     length = np.sqrt((tiles**2).sum(axis=(1, 3)))
-    return np.divide(
-        tiles.sum(axis=(1, 3)), length, out=np.zeros_like(length), where=length > 0.0
-    )
+    return np.divide(tiles.sum(axis=(1, 3)), length, out=np.zeros_like(length), where=length > 0.0)
 
 
 def _log_p(t: np.ndarray) -> np.ndarray:

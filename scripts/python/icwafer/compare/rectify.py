@@ -37,7 +37,9 @@ def homography(corners: tuple[Point, Point, Point, Point]) -> np.ndarray:
     return np.append(np.linalg.solve(rows, right), 1.0).reshape(3, 3)
 
 
-def natural_size(corners: tuple[Point, Point, Point, Point], longest: int = 512) -> tuple[int, int]:
+def natural_size(
+    corners: tuple[Point, Point, Point, Point], longest: int = 512
+) -> tuple[int, int]:
     """A size for the rectified image with the quadrilateral's mean width and height."""
     points = np.asarray(corners, dtype=float)
     top, right, bottom, left = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
@@ -65,7 +67,9 @@ def rectify(
             )
     matrix = homography(corners)
     points = np.asarray(corners, dtype=float)
-    longest = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1).reshape(2, 2).max(axis=0)
+    longest = (
+        np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1).reshape(2, 2).max(axis=0)
+    )
     across, down = (max(1, math.ceil(longest[axis] / size[axis])) for axis in (0, 1))
     total = np.zeros((size[1], size[0], pixels.shape[2]))
     for i in range(across):

@@ -42,7 +42,8 @@ def contact_sheet(
     for chosen in itertools.product(*(axis.values for axis in others)):
         fixed = dict(zip((axis.name for axis in others), chosen))
         title = ", ".join(
-            f"{axis.name} {_text(value)} {axis.unit}".strip() for axis, value in zip(others, chosen)
+            f"{axis.name} {_text(value)} {axis.unit}".strip()
+            for axis, value in zip(others, chosen)
         )
         jobs = [
             job for job in study.jobs

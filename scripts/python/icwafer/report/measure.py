@@ -86,9 +86,7 @@ def measure(
     else:
         results = list(map(_attempt, tasks))
     measured = {
-        job.id: result
-        for job, result in zip(finished, results)
-        if isinstance(result, Measured)
+        job.id: result for job, result in zip(finished, results) if isinstance(result, Measured)
     }
     failed = {job.id: result for job, result in zip(finished, results) if isinstance(result, str)}
     return measured, failed

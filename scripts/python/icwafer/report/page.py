@@ -7,7 +7,6 @@ import html
 import json
 import os
 import re
-import tempfile
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +17,7 @@ import OpenImageIO as oiio
 from icwafer.compare.colour import ViewTransform
 from icwafer.compare.overlay import Curve
 from icwafer.errors import IcwaferError
+from icwafer.files import replacing
 from icwafer.report import encode, measure, tables
 from icwafer.report.contact_sheet import contact_sheet
 from icwafer.report.measure import MEASURES, Measured, Options
@@ -47,8 +47,8 @@ def write(
     """Writes the page, and beside it a CSV, a JSON and, where axes were swept, contact sheets.
 
     view, look: for jobs that name none. ppd: pixels per degree, for FLIP. figure: SVG for a section
-    of its own. largest_mb: of the page,
-    roughly; the embedded pixels are made as small as that needs, the measures are of the originals.
+    of its own. largest_mb: of the page, roughly; the embedded pixels are made as small as that
+    needs, the measures are of the originals.
 
     Raises IcwaferError when no job has a picture; files appear complete or not at all.
     """
@@ -65,6 +65,8 @@ def write(
     measured, unusable = measure.measure(
         study, reference, options, processes or os.cpu_count() or 1
     )
+    if not measured:
+        raise IcwaferError(f"{study.name}: {next(iter(unusable.values()))}")
     study = replace(study, jobs=tuple(_with_error(job, unusable) for job in study.jobs))
     views = {
         measured[job.id].view: measure.view_of(job, options, measured[job.id].linear)
@@ -81,32 +83,22 @@ def write(
     }
     output.parent.mkdir(parents=True, exist_ok=True)
     for path, text in products.items():
-        _write(path, text.encode("utf-8"))
+        with replacing(path) as unfinished:
+            unfinished.write_text(text, encoding="utf-8")
+    written = list(products)
     sheets = contact_sheet(study, measured, views, options)
     for index, sheet in enumerate(sheets):
         suffix = f"-{index + 1}" if len(sheets) > 1 else ""
         path = output.with_name(f"{output.stem}-sheet{suffix}.png")
-        part = path.with_name(f".part-{path.name}")
-        if not sheet.write(str(part)):
-            raise IcwaferError(f"{path}: cannot be written ({sheet.geterror()}); mend this")
-        part.replace(path)
-        products[path] = ""
-    return list(products)
+        with replacing(path) as unfinished:
+            if not sheet.write(str(unfinished)):
+                raise IcwaferError(f"{path}: cannot be written ({sheet.geterror()}); mend this")
+        written.append(path)
+    return written
 
 
 def _with_error(job: Job, errors: dict[str, str]) -> Job:
     return replace(job, error=errors[job.id], image=None) if job.id in errors else job
-
-
-def _write(path: Path, content: bytes) -> None:
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".part-", delete=False) as part:
-        part.write(content)
-    try:
-        os.chmod(part.name, 0o644)
-        os.replace(part.name, path)
-    except OSError:
-        os.unlink(part.name)
-        raise
 
 
 def _scale(jobs: Iterable[Job], largest_mb: float) -> float:

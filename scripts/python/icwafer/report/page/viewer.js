@@ -49,7 +49,7 @@ class Viewer extends EventTarget {
   why(mode) {
     if (mode === "difference" && !this.comparable) return "A and B have different sizes";
     if (!mode.endsWith("flip") || jobs.get(this.b).maps.includes(mode)) return "";
-    return study.reference ? "no map of B was computed" : "the study has no reference";
+    return study.reference ? "no map of B was computed" : "there is no picture of a reference";
   }
 
   layer(id) {
