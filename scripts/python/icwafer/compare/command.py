@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 _EPILOG = """\
 exit status:
-  0  equal: within all thresholds; without any threshold, equal in every pixel; with --noise or
-     --second, and no threshold, not different beyond the noise
+  0  equal: within all thresholds and, with --noise or --second, not different beyond the noise;
+     with none of these, equal in every pixel
   1  different; the reasons are printed, one a line, after "different:"
   2  bad input, one line on stderr
 Pixels that are NaN or infinite always make a difference. EXR and Radiance files hold scene-linear

@@ -61,7 +61,7 @@ class ContactSheet {
     const rows = this.down ? this.down.values : [null];
     const columns = this.across.values;
     grid.style.gridTemplateColumns =
-      `${this.down ? "minmax(5em, max-content) " : ""}repeat(${columns.length}, minmax(120px, 220px))`;
+      `${this.down ? "minmax(5em, max-content) " : ""}repeat(${columns.length}, var(--cell))`;
     const corner = this.down ? [element("div", { class: "axis name" }, withUnit(this.down))] : [];
     const title = element("div", { class: "axis name" }, withUnit(this.across));
     title.style.gridColumn = `${this.down ? 2 : 1} / -1`;

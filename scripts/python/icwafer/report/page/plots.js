@@ -89,7 +89,9 @@ class Plots {
     const points = series.flat();
     const numeric = this.x.values.every((value) => typeof value === "number");
     const places = numeric ? this.x.values : this.x.values.map((_, i) => i);
-    const [lowX, highX] = [Math.min(...places), Math.max(...places)];
+    // Names have no distance: they stand in the middle of equal parts.
+    const margin = numeric ? 0 : 0.5;
+    const [lowX, highX] = [Math.min(...places) - margin, Math.max(...places) + margin];
     const ys = points.map((point) => point.y);
     const ticks = roundTicks(Math.min(...ys, this.measure === "psnr" ? Infinity : 0), Math.max(...ys));
     const [lowY, highY] = [ticks[0], ticks[ticks.length - 1]];
@@ -111,18 +113,19 @@ class Plots {
     }
     chart.append(svg("text", { x: (left + width - right) / 2, y: height - 8, "text-anchor": "middle" }, withUnit(this.x)));
     const labels = [];
-    series.forEach((line, i) => this.drawLine(chart, line, i, atX, atY, labels));
+    series.forEach((line, i) => this.drawLine(chart, line, i, atX, atY, numeric, labels));
     this.drawLabels(chart, labels, width - right + 12);
     return chart;
   }
 
-  drawLine(chart, line, i, atX, atY, labels) {
+  drawLine(chart, line, i, atX, atY, numeric, labels) {
     if (!line.length) return;
     const colour = SERIES[i % SERIES.length];
     const ordered = [...line].sort((one, two) => atX(one.x) - atX(two.x));
     chart.append(svg("polyline", {
       points: ordered.map((point) => `${atX(point.x)},${atY(point.y)}`).join(" "),
-      fill: "none", stroke: colour, "stroke-width": 2,
+      fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": numeric ? "none" : "1 6",
+      "stroke-linecap": "round",
     }));
     for (const point of ordered) {
       const mark = svg("path", {
