@@ -27,7 +27,7 @@ from itertools import combinations
 
 import numpy as np
 
-from icwafer.layout_import.fourier import exact_comb
+from icwafer.layout_import.fourier import exact_comb, transform
 from icwafer.layout_import.outline import Outline, rasterise
 from icwafer.layout_import.refine import BLOCKS, polish, refine
 
@@ -36,15 +36,16 @@ FINEST_PERIOD_UM = 0.19
 #: Fewer periods than this in a tile are no evidence.
 FEWEST_PERIODS = 5
 #: The first order's amplitude below which a grating is not worth mentioning; full wires of a duty
-#: cycle of one half have 0.318, so this is 1/1600 of the power.
-FAINTEST_AMPLITUDE = 0.008
-#: How far a peak stands above the mean power around it. In 400 tiles of random shapes and random
-#: wires none came above 18.
-CLEAREST_NOISE = 25.0
+#: cycle of one half have 0.318, so this is 1/450 of the power.
+FAINTEST_AMPLITUDE = 0.015
+#: How far a peak stands above the mean power around it. In 240 tiles of random rectangles and of
+#: random parallel wires none came above 20.
+CLEAREST_NOISE = 30.0
 MOST_GRATINGS = 4
 
 _HARMONICS = 6
 _LOBE_BINS = 3  # half the width of a line of the spectrum, with some room
+_MOST_LOOKS = 60
 _FINEST_PIXEL_UM = 0.05
 _MOST_PIXELS = 4096
 
@@ -76,21 +77,26 @@ def find_gratings(outline: Outline) -> list[Grating]:
     columns, rows = _raster_size(outline)
     coverage = rasterise(outline, columns, rows)
     spectrum = _Spectrum(coverage, outline.size_um)
-    gratings: list[Grating] = []
-    frequencies: list[np.ndarray] = []
+    found: list[tuple[Grating, np.ndarray]] = []
     for peak in spectrum.peaks():
         frequency = polish(outline, refine(coverage, outline.size_um, peak))
+        if _amplitudes(outline, frequency[None])[0] < FAINTEST_AMPLITUDE:
+            continue  # a line finer than the raster resolves, mirrored into it
+        frequency = _first_order(outline, frequency)
         grating = _measure(outline, frequency)
-        if grating.amplitude < FAINTEST_AMPLITUDE:
-            continue
         spectrum.remove_orders(frequency)
-        for other in frequencies:
+        for _, other in found:
             spectrum.remove_sums(frequency, other)
-        gratings.append(grating)
-        frequencies.append(frequency)
-        if len(gratings) == MOST_GRATINGS:
+        # Between bins a first order may look weaker than its second and be found after it.
+        found = [
+            (old, other)
+            for old, other in found
+            if old.amplitude > grating.amplitude or not spectrum.is_order(other, frequency)
+        ]
+        found.append((grating, frequency))
+        if len(found) == MOST_GRATINGS:
             break
-    return sorted(gratings, key=lambda grating: -grating.amplitude)
+    return sorted((grating for grating, _ in found), key=lambda grating: -grating.amplitude)
 
 
 def _raster_size(outline: Outline) -> tuple[int, int]:
@@ -100,6 +106,23 @@ def _raster_size(outline: Outline) -> tuple[int, int]:
         BLOCKS * int(np.clip(np.ceil(side / pixel / BLOCKS), 16, _MOST_PIXELS // BLOCKS))
         for side in outline.size_um
     )
+
+
+def _first_order(outline: Outline, frequency: np.ndarray) -> np.ndarray:
+    """The frequency itself, or a whole fraction of it where there is a stronger line.
+
+    Among other shapes the first order may drown where a higher one still stands out.
+    """
+    bins = np.hypot(*(frequency * np.array(outline.size_um)))
+    parts = np.arange(1, min(5, int(bins / FEWEST_PERIODS)) + 1)
+    fractions = frequency / parts[:, None]
+    return fractions[_amplitudes(outline, fractions).argmax()]
+
+
+def _amplitudes(outline: Outline, frequency: np.ndarray) -> np.ndarray:
+    """Amplitudes at frequencies (k, 2) that are far from other lines. Returns (k,)."""
+    whole = outline.size_um[0] * outline.size_um[1] / 4  # the integral of the window
+    return np.abs(transform(outline, frequency)) / whole
 
 
 def _measure(outline: Outline, frequency: np.ndarray) -> Grating:
@@ -162,16 +185,20 @@ class _Spectrum:
 
     def peaks(self) -> Iterator[np.ndarray]:
         """Frequencies (2,) of what stands out, by falling power; looks at `free` each time."""
-        for _ in range(60):
-            flat = np.where(self.free, self.power, 0.0).argmax()
+        strong = np.flatnonzero((self.power > self.faintest_power) & self.free)
+        looks = 0
+        for flat in strong[np.argsort(-self.power.flat[strong], kind="stable")]:
             row, column = np.unravel_index(flat, self.power.shape)
-            if self.power[row, column] < self.faintest_power:
-                return
+            if not self.free[row, column]:
+                continue
             bins = np.array([column, row - self.middle])
             clear = self.power[row, column] > CLEAREST_NOISE * self._surroundings(bins)
             self._remove(bins)
             if clear:
                 yield self._interpolated(bins) / self.size_um
+            looks += 1
+            if looks == _MOST_LOOKS:
+                return
 
     def _interpolated(self, bins: np.ndarray) -> np.ndarray:
         """The top of the parabola through the logarithms of the power beside a peak."""
@@ -225,6 +252,11 @@ class _Spectrum:
         highest = int(np.hypot(*self.power.shape) / np.hypot(*bins))
         for order in range(1, highest + 1):
             self._remove(order * bins)
+
+    def is_order(self, frequency: np.ndarray, of: np.ndarray) -> bool:
+        """Whether a frequency is a harmonic of another one."""
+        order = np.rint(frequency @ of / (of @ of))
+        return bool(np.hypot(*((frequency - order * of) * self.size_um)) < _LOBE_BINS)
 
     def remove_sums(self, one: np.ndarray, other: np.ndarray) -> None:
         """Takes out the sums and differences of the orders of two gratings that cross."""
