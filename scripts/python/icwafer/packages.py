@@ -15,8 +15,8 @@ from icwafer.errors import IcwaferError
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests that start
-#: Blender.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes chips and
+#: wafers, "plot" draws them, "test" are the tests that start Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -48,6 +48,8 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "libspnav-dev",
         "opencollada-dev",
     ),
+    "layout": ("python3-numpy",),
+    "plot": ("python3-matplotlib",),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }
 

@@ -15,9 +15,8 @@ _log = logging.getLogger(__name__)
 SCRIPT = Path(__file__).with_name("render_picture.py")
 #: Files of the package that a picture depends on, besides Blender itself.
 INPUTS = tuple(
-    SCRIPT.with_name(name)
-    for name in ("blender_scene.py", "die.py", "floorplan.py", "pictures.py", SCRIPT.name)
-)
+    SCRIPT.with_name(name) for name in ("blender_scene.py", "pictures.py", SCRIPT.name)
+) + tuple((SCRIPT.parent / "chips").rglob("*.py"))
 
 
 def expect_blender() -> None:
