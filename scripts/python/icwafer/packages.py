@@ -16,7 +16,7 @@ _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
 #: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes chips and
-#: wafers, "plot" draws them, "test" are the tests that start Blender.
+#: wafers, "plot" draws them, "import" reads real ones, "test" are the tests that start Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -50,6 +50,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
     ),
     "layout": ("python3-numpy",),
     "plot": ("python3-matplotlib",),
+    "import": ("klayout", "python3-openimageio"),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }
 
