@@ -94,4 +94,9 @@ def _import(arguments: argparse.Namespace) -> int:
     )
     write_layout(output, imported.layout)
     print(output)
+    if arguments.map:
+        from icwafer.layout_import.map_picture import write_map
+
+        write_map(arguments.map, imported.layout)
+        print(arguments.map)
     return 0

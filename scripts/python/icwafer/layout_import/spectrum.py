@@ -114,7 +114,7 @@ def _first_order(outline: Outline, frequency: np.ndarray) -> np.ndarray:
     Among other shapes the first order may drown where a higher one still stands out.
     """
     bins = np.hypot(*(frequency * np.array(outline.size_um)))
-    parts = np.arange(1, min(5, int(bins / FEWEST_PERIODS)) + 1)
+    parts = np.arange(1, np.clip(int(bins / FEWEST_PERIODS), 1, 5) + 1)
     fractions = frequency / parts[:, None]
     return fractions[_amplitudes(outline, fractions).argmax()]
 
@@ -177,7 +177,7 @@ class _Spectrum:
         bins = np.hypot(*np.meshgrid(i, j))
         frequency = np.hypot(*np.meshgrid(i / self.size_um[0], j / self.size_um[1]))
         resolved = (width - 1) / self.size_um[0]
-        free = (bins >= FEWEST_PERIODS - 1) & (
+        free = (bins >= FEWEST_PERIODS - 0.5) & (
             frequency <= min(0.95 * resolved, 1 / FINEST_PERIOD_UM)
         )
         free[: self.middle + 1, 0] = False  # the same as the upper half
