@@ -15,6 +15,7 @@ from icwafer.layout_import.outline import Outline
 #: The Hann window is 1/2 + 1/4 e^(+i..) + 1/4 e^(-i..): shifts of the spectrum by whole bins.
 _SHIFTS = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)])
 _SHARES = np.array([0.25, 0.5, 0.25])[_SHIFTS + 1].prod(axis=1)
+_CHUNK = 4096  # edges at a time: bounds the memory, and fits the cache
 
 
 def window_transform(frequency: np.ndarray, size_um: tuple[float, float]) -> np.ndarray:
@@ -32,22 +33,22 @@ def transform(outline: Outline, frequency: np.ndarray) -> np.ndarray:
     sinc(t) = sin(pi t) / (pi t). (J. Wuttke, "Numerically stable form factor of any polygon and
     polyhedron", 2021, derives the same.) frequency: (k, 2). Returns (k,) complex128 in um^2.
     """
-    starts, ends = outline.edges_um[:, :2], outline.edges_um[:, 2:]
-    centre, along = (starts + ends) / 2, ends - starts
     shifts = _SHIFTS / np.array(outline.size_um)
-    shift_phase = np.exp(-2j * np.pi * (shifts @ centre.T))
-    result = np.empty(len(frequency), dtype=np.complex128)
-    for index, base in enumerate(frequency):
-        shifted = base + shifts
-        square = (shifted**2).sum(axis=1)
-        square[square < 1e-18] = np.inf  # the mean: its value is the area, added below
-        flux = shifted[:, :1] * along[:, 1] - shifted[:, 1:] * along[:, 0]
-        phase = shift_phase * np.exp(-2j * np.pi * (centre @ base))
-        turns = np.pi * (shifted @ along.T) + 1e-30  # sin(t) / t is 1 there, and not 0 / 0
-        sums = (flux * (np.sin(turns) / turns) * phase).sum(axis=1)
-        result[index] = _SHARES @ (sums / square) / 2j / np.pi
-        result[index] += _SHARES[np.isinf(square)].sum() * outline.area_um2
-    return result
+    sums = np.zeros((len(frequency), len(shifts)), dtype=np.complex128)
+    for first in range(0, len(outline.edges_um), _CHUNK):
+        edges = outline.edges_um[first : first + _CHUNK]
+        centre, along = (edges[:, :2] + edges[:, 2:]) / 2, edges[:, 2:] - edges[:, :2]
+        shift_phase = np.exp(-2j * np.pi * (shifts @ centre.T))
+        for index, base in enumerate(frequency):
+            shifted = base + shifts
+            flux = shifted[:, :1] * along[:, 1] - shifted[:, 1:] * along[:, 0]
+            turns = np.pi * (shifted @ along.T) + 1e-30  # sin(t) / t is 1 there, and not 0 / 0
+            phase = shift_phase * np.exp(-2j * np.pi * (centre @ base))
+            sums[index] += (flux * (np.sin(turns) / turns) * phase).sum(axis=1)
+    square = ((frequency[:, None] + shifts) ** 2).sum(axis=2)
+    mean = square < 1e-18  # frequency 0, where the formula has no value: that is the area
+    sums = np.where(mean, outline.area_um2, sums / np.where(mean, 1.0, square) / 2j / np.pi)
+    return sums @ _SHARES
 
 
 def fit_comb(

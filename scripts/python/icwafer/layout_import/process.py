@@ -115,9 +115,7 @@ def read_process(name: str) -> Process:
     elif name.endswith(".toml"):
         path = Path(name)
     else:
-        raise IcwaferError(
-            f"{unknown('process', name, built_in())}, or give a layer map, a file ending with .toml"
-        )
+        raise IcwaferError(f"{unknown('process', name, built_in())} A layer map ends with .toml")
     try:
         text = path.read_text(encoding="utf-8")
         table = tomllib.loads(text)

@@ -121,7 +121,10 @@ def _message(request: Request) -> dict[str, Any]:
         "lef": [str(path) for path in request.lef],
         "top": request.top,
         "process": request.process.name,
-        "layers": [[*layer.gds, layer.lef] for layer in request.process.layers],
+        "layers": [
+            [*layer.gds, *(layer.lef + ending for ending in ("", ".PIN", ".FILL"))]
+            for layer in request.process.layers
+        ],
         "tile_um": request.tile_um,
         "window_um": request.window_um,
         "limit_bytes": round(request.limits.memory_gb * 2**30),

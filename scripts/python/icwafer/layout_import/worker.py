@@ -6,7 +6,7 @@ nothing else. It gets a request as JSON on stdin and answers on stdout with mess
 JSON each, and after that of a cutout its edges, `edges` x 4 int64, little-endian, in database
 units. `icwafer.layout_import.reader` is the other end.
 
-A module of the package only in name: KLayout must be importable, and nothing else is needed.
+KLayout must be importable here, and nowhere else.
 """
 
 from __future__ import annotations
@@ -15,14 +15,20 @@ import json
 import os
 import resource
 import sys
+import zlib
+from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
+
+from icwafer.layout_import.gds_arrays import array_without_pitch
 
 #: Levels of cells in cells; real chips have ten to thirty.
 MOST_LEVELS = 1000
 #: Shapes of all tiles together, each instance of a cell counted.
 MOST_SHAPES = 1_000_000_000
+#: Edges of one layer in one window.
+MOST_EDGES = 1_000_000
 #: Without a wish: tiles of this side, or larger ones that are not more than so many, and of each
 #: a window of at most this side.
 USUAL_TILE_UM = 50.0
@@ -52,9 +58,12 @@ def main() -> int:
             _send(answer, error=str(refusal))
         except MemoryError:
             _send(answer, error="memory")
-        except RuntimeError as error:  # KLayout's
+        except (RuntimeError, OSError, EOFError, zlib.error) as error:  # the first are KLayout's
             text = str(error).splitlines()[0].removesuffix(" in Layout.read")
-            _send(answer, error="memory" if "bad_alloc" in text else f"cannot be read: {text}")
+            text = text.removesuffix(f": {request['path']}")
+            advice = "write it anew with the program it is from, as GDSII, OASIS or DEF"
+            broken = f"cannot be read: {text}; {advice}"
+            _send(answer, error="memory" if "bad_alloc" in text else broken)
     return 0
 
 
@@ -66,6 +75,12 @@ def _send(answer: BinaryIO, **message: Any) -> None:
 def _answer(request: dict[str, Any], answer: BinaryIO) -> None:
     import klayout.db as db
 
+    flat = array_without_pitch(Path(request["path"]))
+    if flat:
+        raise Refusal(
+            f"has an array of {flat[1]} times the cell '{flat[0]}' with a pitch of 0, all on one "
+            "another: correct the array"
+        )
     layout = db.Layout()
     options = db.LoadLayoutOptions()
     options.lefdef_config.lef_files = request["lef"]
@@ -132,7 +147,7 @@ def _indices(layout: Any, names: list[str]) -> list[int]:
 
 
 def _check_hierarchy(layout: Any, top: Any, layers: set[int]) -> None:
-    """Refuses what would take forever to flatten, or makes no sense."""
+    """Refuses what would take forever to flatten."""
     within = {top.cell_index(), *top.called_cells()}
     levels: dict[int, int] = {}
     shapes: dict[int, int] = {}
@@ -143,12 +158,6 @@ def _check_hierarchy(layout: Any, top: Any, layers: set[int]) -> None:
         levels[index] = 0
         shapes[index] = sum(cell.shapes(layer).size() for layer in layers)
         for instance in cell.each_inst():
-            for count, step in ((instance.na, instance.a), (instance.nb, instance.b)):
-                if count > 1 and step.x == step.y == 0:
-                    raise Refusal(
-                        f"its cell '{cell.name}' has an array of {count} times "
-                        f"'{instance.cell.name}' with a pitch of 0: correct the array"
-                    )
             copies = max(instance.na, 1) * max(instance.nb, 1)
             shapes[index] += copies * shapes[instance.cell_index]
             levels[index] = max(levels[index], 1 + levels[instance.cell_index])
@@ -201,6 +210,12 @@ def _send_tile(
         shapes.merge()
         edges = shapes.edges()
         count = edges.count()
+        if count > MOST_EDGES:
+            raise Refusal(
+                f"has {count} edges in one window of {window.width() * dbu:g} x "
+                f"{window.height() * dbu:g} um, and at most {MOST_EDGES} are looked at: choose a "
+                "smaller --window"
+            )
         area = shapes.area()
         visible = (shapes - above).area() / area if area else 0.0
         above += shapes
