@@ -46,7 +46,7 @@ set(configure_host
   ${CMAKE_COMMAND} -G Ninja -C ${host_options} -S ${host_source} -B ${host_binary}
   -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_INSTALL_PREFIX=${host_stage}
-  -DCMAKE_PROJECT_Blender_INCLUDE=${host_folder}/unity.cmake
+  -DCMAKE_PROJECT_Blender_INCLUDE=${host_folder}/compile_time.cmake
   -DWITH_COMPILER_CCACHE=${with_ccache}
 )
 list(JOIN configure_host "\n" configure_host_text)
@@ -58,7 +58,7 @@ add_custom_command(
   DEPENDS
     ${CMAKE_CURRENT_BINARY_DIR}/host_configuration.txt
     ${host_folder}/options.cmake
-    ${host_folder}/unity.cmake
+    ${host_folder}/compile_time.cmake
     ${host_options}
   USES_TERMINAL VERBATIM
 )

@@ -103,6 +103,8 @@ def _draw(
         values["direction_rad"][cells] = np.radians(degrees)
     for group, cells in zip(groups, members):
         for name in ATTRIBUTES[len(_FIRST_DRAWN) :]:
-            values[name][cells] = getattr(group, name).draw(rng, len(cells))
+            spread = getattr(group, name)
+            same = spread.low == spread.high
+            values[name][cells] = spread.mean if same else spread.draw(rng, len(cells))
     np.clip(values["diffraction"], 0.0, 1.0, out=values["diffraction"])
     return values

@@ -54,10 +54,18 @@ def copied(
     """
     rects = np.empty((len(targets), *rect_nm.shape), dtype=np.int64)
     for axis in (0, 1):
-        share = (rect_nm[:, axis::2] - source[axis]) / length(source, axis)
-        shares = np.where(flips[:, axis, None, None], 1.0 - share[:, ::-1], share)
-        low, high = targets[:, axis, None, None], targets[:, axis + 2, None, None]
-        rects[:, :, axis::2] = low + np.rint(shares * (high - low)).astype(np.int64)
+        offset, extent = rect_nm[:, axis::2] - source[axis], length(source, axis)
+        low, high = targets[:, axis], targets[:, axis + 2]
+        for flip in (False, True):
+            of = np.flatnonzero(flips[:, axis] == flip)
+            if len(of):
+                of = slice(None) if len(of) == len(targets) else of
+                placed = extent - offset[:, ::-1] if flip else offset
+                if (high - low == extent).all():
+                    rects[of, :, axis::2] = low[of, None, None] + placed
+                else:
+                    scaled = placed / extent * (high - low)[of, None, None]
+                    rects[of, :, axis::2] = low[of, None, None] + np.rint(scaled).astype(np.int64)
     return rects.reshape(-1, 4)
 
 

@@ -68,10 +68,9 @@ def _draw_spacing(axes: plt.Axes, die: Die) -> None:
         if len(members):
             heights, _ = np.histogram(die.spacing_nm[members], bins, weights=area[members])
             colour = colours[members].mean(axis=0)
-            axes.bar(
-                bins[:-1], heights, np.diff(bins), below, align="edge", color=colour,
-                label=group.name,
-            )  # fmt: skip
+            axes.stairs(
+                below + heights, bins, baseline=below, fill=True, color=colour, label=group.name
+            )
             below += heights
     axes.set_xscale("log")
     ticks = np.unique(np.round(bins[:: max(1, len(bins) // 8)], -1))
@@ -80,7 +79,7 @@ def _draw_spacing(axes: plt.Axes, die: Die) -> None:
     axes.set_xlabel("wire spacing, nm")
     axes.set_ylabel("area, mm\u00b2")
     if len(die.spec.groups) <= 20:
-        axes.legend(fontsize=6)
+        axes.legend(fontsize=6, loc="upper left")
 
 
 def _draw_wafer(
@@ -110,4 +109,4 @@ def _draw_drift(axes: plt.Axes, places: WaferMap) -> None:
         axes.plot(radius, 100 * (getattr(places, f"{name}_scale") - 1), ".", ms=2, label=name)
     axes.set_xlabel("distance of the die from the wafer's centre, mm")
     axes.set_ylabel("% from the mean")
-    axes.legend()
+    axes.legend(loc="upper left")

@@ -64,7 +64,9 @@ def _inside(table: dict[str, Any], step: str, setting: str) -> dict[str, Any]:
     if not match:
         raise IcwaferError(f"--set {setting}: '{step}' is no field; write as in dies[1].seed")
     name, place = match.groups()
-    if not isinstance(table, dict) or name not in table:
+    if not isinstance(table, dict):
+        raise IcwaferError(f"--set {setting}: what is before '{step}' has no fields; leave it out")
+    if name not in table:
         raise IcwaferError(f"--set {setting}: {unknown('field', name, table)}")
     inner = table[name]
     if place is None or not isinstance(inner, list):

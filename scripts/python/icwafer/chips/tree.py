@@ -128,7 +128,9 @@ def tree_plan(
     flips = rng.integers(2, size=(1, 2)).astype(bool)
     blocks = fill(rng, np.array(layout.rects), np.array(layout.kinds), round(block_um * UM))
     starts = np.searchsorted(blocks.macro, np.arange(len(layout.rects) + 1))
-    rect, block = _unfold(_Copies(piece, die, np.array([die]), flips), blocks.rect_nm, starts)
+    rect = np.empty((_size(piece, starts), 4), dtype=np.int64)
+    block = np.empty(len(rect), dtype=np.int64)
+    _unfold(_Copies(piece, die, np.array([die]), flips), blocks, starts, rect, block)
     return Plan(
         rect, blocks.kind[block], blocks.macro[block], blocks.cell[block], tuple(layout.roles)
     )
@@ -232,19 +234,35 @@ class _Layout:
         return self._macros([tuple(r) for r in rects.tolist()], dealt_kinds, [""] * len(rects))
 
 
-def _unfold(
-    piece: _Piece, rect_nm: np.ndarray, starts: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Rectangles (n, 4) of a piece with all copies, and which filled block (n,) each one is."""
+def _size(piece: _Piece, starts: np.ndarray) -> int:
+    """How many blocks a piece has with all copies."""
     if isinstance(piece, range):
-        blocks = slice(starts[piece.start], starts[piece.stop])
-        return rect_nm[blocks], np.arange(blocks.start, blocks.stop)
+        return int(starts[piece.stop] - starts[piece.start])
     if isinstance(piece, _Copies):
-        rect, block = _unfold(piece.piece, rect_nm, starts)
-        targets, flips = piece.targets, piece.flips
-        return copied(rect, piece.source, targets, flips), np.tile(block, len(targets))
-    parts = [_unfold(part, rect_nm, starts) for part in piece]
-    return np.concatenate([r for r, _ in parts]), np.concatenate([b for _, b in parts])
+        return len(piece.targets) * _size(piece.piece, starts)
+    return sum(_size(part, starts) for part in piece)
+
+
+def _unfold(
+    piece: _Piece, blocks: Plan, starts: np.ndarray, rect_nm: np.ndarray, block: np.ndarray
+) -> None:
+    """Writes a piece with all copies: rectangles (n, 4), and which filled block (n,) each one is."""
+    if isinstance(piece, range):
+        first, last = starts[piece.start], starts[piece.stop]
+        rect_nm[:] = blocks.rect_nm[first:last]
+        block[:] = np.arange(first, last)
+    elif isinstance(piece, _Copies):
+        count = _size(piece.piece, starts)
+        original = np.empty((count, 4), dtype=np.int64)
+        _unfold(piece.piece, blocks, starts, original, block[:count])
+        rect_nm[:] = copied(original, piece.source, piece.targets, piece.flips)
+        block[:] = np.tile(block[:count], len(piece.targets))
+    else:
+        first = 0
+        for part in piece:
+            last = first + _size(part, starts)
+            _unfold(part, blocks, starts, rect_nm[first:last], block[first:last])
+            first = last
 
 
 def _fitting_frame(rect: Rect, width_nm: int) -> tuple[list[Rect], Rect]:

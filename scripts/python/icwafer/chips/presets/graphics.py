@@ -92,7 +92,7 @@ LAYOUT = Layout(
             groups=(
                 group("logic", Kind.LOGIC, INTEL65_M8, weight=4.0, across=INTEL65_M7),
                 group("dense logic", Kind.LOGIC, INTEL65_M7, diffraction=0.4, turned=1.0),
-                group("shared cache", Kind.MEMORY, INTEL65_M7, variation=0.001, diffraction=0.6),
+                group("shared cache", Kind.MEMORY, INTEL65_M7, 0.001, diffraction=0.6, weight=0.0),
                 group("cache", Kind.MEMORY, INTEL65_M6, variation=0.003, turned=1.0),
                 group("register files", Kind.MEMORY, INTEL65_M6, variation=0.003, diffraction=0.6),
                 group("interfaces", Kind.ANALOG, INTEL65_M8, variation=0.02, turned=0.5),

@@ -82,7 +82,7 @@ LAYOUT = Layout(
             groups=(
                 group("logic", Kind.LOGIC, INTEL45_M8, weight=4.0, across=INTEL45_M7),
                 group("dense logic", Kind.LOGIC, INTEL45_M7, diffraction=0.4, turned=1.0),
-                group("shared cache", Kind.MEMORY, INTEL45_M7, variation=0.001, diffraction=0.6),
+                group("shared cache", Kind.MEMORY, INTEL45_M7, 0.001, diffraction=0.6, weight=0.0),
                 group("cache", Kind.MEMORY, INTEL45_M6, variation=0.003, diffraction=0.6),
                 group("register files", Kind.MEMORY, INTEL45_M6, turned=1.0, weight=2.0),
                 group("interfaces", Kind.ANALOG, INTEL45_M8, variation=0.02, turned=0.5),
