@@ -22,12 +22,10 @@ def turn_deg(one_rad: float, other_deg: float) -> float:
 
 
 class GratingCase(unittest.TestCase):
-    def expect(
-        self, found: Grating, period: float, duty: float, angle_deg: float, loose: float = 1.0
-    ) -> None:
-        self.assertLess(abs(found.period_um / period - 1), 1e-3 * loose, found)
-        self.assertLess(abs(found.duty / duty - 1), 1e-2 * loose, found)
-        self.assertLess(turn_deg(found.direction_rad, angle_deg), 0.1 * loose, found)
+    def expect(self, found: Grating, period: float, duty: float, angle_deg: float) -> None:
+        self.assertLess(abs(found.period_um / period - 1), 1e-3, found)
+        self.assertLess(abs(found.duty / duty - 1), 1e-2, found)
+        self.assertLess(turn_deg(found.direction_rad, angle_deg), 0.1, found)
 
 
 class CleanGratings(GratingCase):
@@ -63,8 +61,8 @@ class SeveralGratings(GratingCase):
         found = find_gratings(outline(left + right, 50.0))
         self.assertEqual(len(found), 2)
         by_period = sorted(found, key=lambda grating: grating.period_um)
-        self.expect(by_period[0], 0.68, 0.44, 0.0, loose=2)
-        self.expect(by_period[1], 0.92, 0.3 / 0.92, 90.0, loose=2)
+        self.expect(by_period[0], 0.68, 0.44, 0.0)
+        self.expect(by_period[1], 0.92, 0.3 / 0.92, 90.0)
 
     def test_a_mesh_is_two_families_across_and_no_diagonal_one(self) -> None:
         rows = [box(-30, -30 + 3.4 * i, 30, -28.4 + 3.4 * i) for i in range(18)]
@@ -84,7 +82,7 @@ class SeveralGratings(GratingCase):
         for shapes in (50, 400):
             noise = scattered(rng, shapes, (-25, 6, 25, 25))
             found = find_gratings(outline(lower + noise, 50.0))
-            self.expect(found[0], 0.68, 0.44, 90.0, loose=2)
+            self.expect(found[0], 0.68, 0.44, 90.0)
 
 
 class NoGrating(unittest.TestCase):
