@@ -35,13 +35,13 @@ def register(add_action: AddAction) -> None:
         "--tile",
         type=_length,
         metavar="UM",
-        help="side of a tile; default 50, or for large chips what gives 1000 tiles",
+        help="side of a tile; default 50, or for large chips what gives 500 tiles",
     )
     command.add_argument(
         "--window",
         type=_length,
         metavar="UM",
-        help="side of what is looked at in the middle of each tile; default: the tile, at most 60",
+        help="side of what is looked at in the middle of each tile; default: the tile, at most 50",
     )
     command.add_argument("--map", type=Path, metavar="PICTURE", help="also draw what was found")
     command.add_argument("--limit-gb", type=_limit, metavar="GB", help="memory to read the file")

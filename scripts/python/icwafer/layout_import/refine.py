@@ -22,6 +22,7 @@ _PASSES = ((1, 0.12), (2, 0.04), (6, 0.01))
 
 _MOST_STEPS = 30
 _POLISHING_HARMONICS = 3
+_MANY_PERIODS = 60
 
 _STENCIL = np.array([(i, j) for j in (-1, 0, 1) for i in (-1, 0, 1)], dtype=np.float64)
 #: Turns nine values on the stencil into 1, x, y, x^2, xy, y^2 by least squares.
@@ -57,16 +58,20 @@ def refine(
 def polish(outline: Outline, frequency: np.ndarray) -> np.ndarray:
     """The length of a frequency once more, with the exact transform in place of the raster's.
 
-    The raster's error matters where there are few periods.
+    The raster's error, a small part of a bin, matters only where there are few periods.
     """
     bins = np.hypot(*(frequency * np.array(outline.size_um)))
+    if bins > _MANY_PERIODS:
+        return frequency
     step = 0.02 / bins
     low, mid, high = (
         exact_comb(outline, frequency * (1 + k * step), _POLISHING_HARMONICS)[1]
         for k in (-1, 0, 1)
     )
     bend = low - 2 * mid + high
-    return frequency * (1 + step * np.clip((low - high) / (2 * bend), -2, 2)) if bend < 0 else frequency
+    if bend >= 0:
+        return frequency
+    return frequency * (1 + step * np.clip((low - high) / (2 * bend), -2, 2))
 
 
 class _Blocks:

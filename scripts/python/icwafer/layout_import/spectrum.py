@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import combinations
+from functools import lru_cache
 
 import numpy as np
 
@@ -153,6 +153,19 @@ def _duty(amplitudes: np.ndarray) -> float:
     return float(best)
 
 
+@lru_cache(maxsize=8)
+def _within_range(shape: tuple[int, int], size_um: tuple[float, float]) -> np.ndarray:
+    """Bins of periods that the tile holds often enough, that the raster resolves."""
+    height, width = shape
+    middle = height // 2
+    i, j = np.arange(width), np.arange(height)[:, None] - middle
+    frequency = np.hypot(i / size_um[0], j / size_um[1])
+    finest = min(0.95 * (width - 1) / size_um[0], 1 / FINEST_PERIOD_UM)
+    within = (np.hypot(i, j) >= FEWEST_PERIODS - 0.5) & (frequency <= finest)
+    within[: middle + 1, 0] = False  # the same as the upper half
+    return within
+
+
 class _Spectrum:
     """The power of a raster under the Hann window, and what of it is explained already."""
 
@@ -168,20 +181,7 @@ class _Spectrum:
         self.power = np.fft.fftshift(power, axes=0)
         # A line between bins loses up to half of its amplitude.
         self.faintest_power = (0.5 * FAINTEST_AMPLITUDE * window.sum()) ** 2
-        self.free = self._within_range()
-
-    def _within_range(self) -> np.ndarray:
-        """Bins of periods that the tile holds often enough, that the raster resolves."""
-        height, width = self.power.shape
-        i, j = np.arange(width), np.arange(height) - self.middle
-        bins = np.hypot(*np.meshgrid(i, j))
-        frequency = np.hypot(*np.meshgrid(i / self.size_um[0], j / self.size_um[1]))
-        resolved = (width - 1) / self.size_um[0]
-        free = (bins >= FEWEST_PERIODS - 0.5) & (
-            frequency <= min(0.95 * resolved, 1 / FINEST_PERIOD_UM)
-        )
-        free[: self.middle + 1, 0] = False  # the same as the upper half
-        return free
+        self.free = _within_range(self.power.shape, size_um).copy()
 
     def peaks(self) -> Iterator[np.ndarray]:
         """Frequencies (2,) of what stands out, by falling power; looks at `free` each time."""

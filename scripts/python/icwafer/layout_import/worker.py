@@ -32,8 +32,8 @@ MOST_EDGES = 1_000_000
 #: Without a wish: tiles of this side, or larger ones that are not more than so many, and of each
 #: a window of at most this side.
 USUAL_TILE_UM = 50.0
-USUAL_TILES = 1000
-USUAL_WINDOW_UM = 60.0
+USUAL_TILES = 500
+USUAL_WINDOW_UM = 50.0
 SMALLEST_UM, LARGEST_UM = 1.0, 300_000.0
 
 _SEPARATORS = str.maketrans("(),;", "    ")
