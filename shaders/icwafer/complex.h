@@ -13,6 +13,14 @@ ICW_DEVICE Lanes real_sqrt(const Lanes x)
   return lanes_sqrt(x);
 }
 
+#ifndef ccl_device_inline
+/* double: for tests that need more digits. */
+inline double real_sqrt(const double x)
+{
+  return std::sqrt(x);
+}
+#endif
+
 template<typename Real>
 struct Complex {
   Real re, im;
@@ -61,15 +69,18 @@ ICW_DEVICE Complex<Real> decaying_sqrt(const Complex<Real> a)
 }
 
 /* exp(2 pi i turns) */
-template<typename Real>
-ICW_DEVICE Complex<Real> unit_turns(const Real turns);
-
-template<>
-ICW_DEVICE Complex<Lanes> unit_turns<Lanes>(const Lanes turns)
+ICW_DEVICE Complex<Lanes> unit_turns(const Lanes turns)
 {
   Complex<Lanes> z;
   lanes_sincos_turns(turns, z.im, z.re);
   return z;
 }
+
+#ifndef ccl_device_inline
+inline Complex<double> unit_turns(const double turns)
+{
+  return {std::cos(2.0 * M_PI * turns), std::sin(2.0 * M_PI * turns)};
+}
+#endif
 
 }  // namespace icwafer

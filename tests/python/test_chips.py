@@ -13,6 +13,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "python"))
 
 from icwafer.chips.blocks import overlap  # noqa: E402
+from icwafer.chips.check import check_layout  # noqa: E402
 from icwafer.chips.die import generate  # noqa: E402
 from icwafer.chips.geometry import frames, grids, sliced  # noqa: E402
 from icwafer.chips.model import (  # noqa: E402
@@ -22,6 +23,7 @@ from icwafer.chips.model import (  # noqa: E402
     DieSpec,
     Group,
     Kind,
+    Layout,
     floorplan_names,
 )
 from icwafer.chips.presets import PRESETS  # noqa: E402
@@ -95,6 +97,11 @@ class EveryPreset(unittest.TestCase):
                 self.assertGreater(
                     len(generate(replace(spec, block_um=spec.block_um / 2))), 1.5 * count, name
                 )
+
+    def test_blocks_too_many_are_refused_at_once(self) -> None:
+        large = replace(SPECS["graphics"], block_um=2.0)
+        with self.assertRaisesRegex(IcwaferError, "more than 20000000 blocks: use 7 or more"):
+            generate(large)
 
     def test_dies_too_small_say_so(self) -> None:
         refused = set()
@@ -184,8 +191,10 @@ class ListedBlocks(unittest.TestCase):
             ([[0, 0, 5, 5]], [0, 1], "shapes"),
             (np.empty((0, 4)), [], "0 blocks"),
         ):
+            blocks = BlockTable.from_um(np.array(rect_um), np.array(group))
+            spec = DieSpec(self.GROUPS, width_mm=0.03, height_mm=0.02, blocks=blocks)
             with self.subTest(words), self.assertRaisesRegex(IcwaferError, words):
-                self.die(rect_um, group)
+                check_layout(Layout((spec,)))
 
 
 class Overlap(unittest.TestCase):

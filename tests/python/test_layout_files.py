@@ -37,8 +37,8 @@ version = 1
 
 [[dies]]
 name = "a # b"
-width_mm = 0.02
-height_mm = 0.01
+width_mm = 0.2
+height_mm = 0.1
 
 [[dies.groups]]
 name = 'x'
@@ -176,7 +176,7 @@ class Errors(unittest.TestCase):
         for old, new, *parts in (
             ("version = 1", "version = 2", "version is 2", "reads 1 only"),
             ("seed = 8", "seed = 8.0", "dies[1].seed: 8.0 is not a whole number"),
-            ("seed = 8", "seed = -1", "dies[1].seed: -1 is outside 0 to 4.29497e+09"),
+            ("seed = 8", "seed = -1", "dies[1].seed: -1 is outside 0 to 4294967295"),
             ("seed = 8", "sead = 8", "dies[1].sead: no field 'sead': did you mean 'seed'?"),
             ("copies_alike = true", "copies_alike = 1", "1 is neither true nor false"),
             ("width_mm = 10.32", "width_mm = nan", "nan is outside 0.001 to 300"),
@@ -206,6 +206,7 @@ class Errors(unittest.TestCase):
             ('10, "x"]', '10, "z"]', "dies[1].blocks.rows[1]: no group 'z'"),
             ('[10, 0, 20, 5, "y"]', '[10, 0, 20, "y"]', "rows[2]", "is not [x0, y0, x1, y1"),
             ("[10, 5, 20, 10,", '[10, "5", 20, 10,', "dies[1].blocks.rows[3]: '5' is not a"),
+            ("[0, 0, 10, 10,", "[0, 0, inf, 10,", "rows[1]", "larger than any die"),
             ("oxide.bow = 0.02", 'oxide.bow = "a"', "wafer.oxide.bow: 'a' is not a number"),
             ("high = 720.5", "high = 600", "low 700 is above high 600"),
             ("centres = [500, 530]", "centres = []", "no centres"),
@@ -240,6 +241,7 @@ class Errors(unittest.TestCase):
             (HEADER + "dies = []", "dies: 0 entries"),
             (HEADER + "dies = [3]", "dies[1]: 3 is not a table"),
             (HEADER + "[[dies]]\ngroups = []", "groups: 0 entries"),
+            (SMALL[: SMALL.index("  [0, 0")] + "]", "blocks: 0 blocks: there must be 1 to"),
             (HEADER + f"[[dies]]\nseed = {'9' * 400}", "too large"),
         ):
             with self.subTest(text[:40]), self.assertRaises(IcwaferError) as caught:

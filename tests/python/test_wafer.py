@@ -206,6 +206,8 @@ class Dies(unittest.TestCase):
         ):
             with self.subTest(words), self.assertRaisesRegex(IcwaferError, words):
                 check_layout(layout(5.0, 4.0, wafer, test))
+        with self.assertRaisesRegex(IcwaferError, "more than 1000000 times on a wafer of 300 mm"):
+            check_layout(layout(0.1, 0.1, Wafer()))
         with self.assertRaisesRegex(IcwaferError, "no second die"):
             check_layout(layout(5.0, 4.0, Wafer(test_fields=((0, 0),))))
         with self.assertRaisesRegex(IcwaferError, "27 x 27 mm are more than a reticle"):

@@ -70,7 +70,8 @@ def _doctor(_: argparse.Namespace) -> int:
 
 
 def _test(arguments: list[str]) -> int:
-    packages.install("base", "core", "host", "layout", "plot", "import", "test")  # at once, so that root is asked for once
+    # At once, so that root is asked for once.
+    packages.install("base", "core", "host", "layout", "import", "test")
     build.build("core")
     build.build("blender")
     return subprocess.run(

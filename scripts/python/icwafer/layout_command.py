@@ -85,7 +85,6 @@ def _show(arguments: argparse.Namespace) -> int:
     for line in summary(layout):
         print(line)
     if arguments.plot:
-        packages.install("plot")
         from icwafer.chips.plot import plot
 
         plot(layout, arguments.plot)

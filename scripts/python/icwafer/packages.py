@@ -15,8 +15,8 @@ from icwafer.errors import IcwaferError
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes chips and
-#: wafers, "plot" draws them, "import" reads real ones, "test" are the tests that start Blender.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and
+#: draws chips and wafers, "import" reads real chips, "test" are the tests that start Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -48,9 +48,8 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "libspnav-dev",
         "opencollada-dev",
     ),
-    "layout": ("python3-numpy",),
-    "plot": ("python3-matplotlib",),
-    "import": ("klayout", "python3-openimageio"),
+    "layout": ("python3-matplotlib",),
+    "import": ("klayout", "python3-numpy", "python3-openimageio"),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }
 

@@ -12,28 +12,27 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from icwafer.chips.blocks import block_problems
-from icwafer.chips.model import DieSpec, Group, Layout
+from icwafer.chips.blocks import block_problems, overlap_problems
+from icwafer.chips.lines import FieldPath
+from icwafer.chips.model import MAX_BLOCKS, MAX_DIES, DieSpec, Group, Layout, size_nm
 from icwafer.chips.outline import MARKS
-from icwafer.chips.placement import RETICLE_MM, reticle_field, test_dies_mm
+from icwafer.chips.placement import RETICLE_MM, reticle_field, test_field_dies_mm
 from icwafer.chips.rules import Rule, rule_of
 from icwafer.chips.spread import Clustered, Spread, Uniform
 from icwafer.chips.suggest import unknown
 from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
 
-Path = tuple[str | int, ...]
-
 
 @dataclass(frozen=True)
 class Problem:
     """path: where, from the layout down, indices from 0. text: what, and what is allowed."""
 
-    path: Path
+    path: FieldPath
     text: str
 
 
-def spelled(path: Path) -> str:
+def spelled(path: FieldPath) -> str:
     """A path as a message says it, counting from 1: `dies[1].groups[3].width_nm`."""
     words = ""
     for step in path:
@@ -47,7 +46,8 @@ def check_layout(layout: Layout) -> None:
 
 
 def check_die(spec: DieSpec) -> None:
-    """Raises IcwaferError for the first problem of a die."""
+    """Raises IcwaferError for the first problem of a die; that listed blocks overlap is none here,
+    because finding that takes long: `check_layout` does it, and so do reading and writing."""
     _raise_first(_die_problems(spec, (f"die '{spec.name}'",)))
 
 
@@ -56,6 +56,9 @@ def problems(layout: Layout) -> Iterator[Problem]:
     yield from _field_problems(layout, ())
     for index, spec in enumerate(layout.dies):
         yield from _die_problems(spec, ("dies", index))
+        if spec.blocks is not None:
+            for text in overlap_problems(spec.blocks):
+                yield Problem(("dies", index, "blocks"), text)
     yield from _twice([spec.name for spec in layout.dies], ("dies",))
     if layout.wafer is not None:
         yield from _wafer_problems(layout, layout.wafer)
@@ -66,17 +69,22 @@ def _raise_first(found: Iterator[Problem]) -> None:
         raise IcwaferError(f"{spelled(problem.path)}: {problem.text}")
 
 
-def _die_problems(spec: DieSpec, path: Path) -> Iterator[Problem]:
+def _die_problems(spec: DieSpec, path: FieldPath) -> Iterator[Problem]:
     yield from _field_problems(spec, path)
     yield from _twice([group.name for group in spec.groups], (*path, "groups"))
     for index, group in enumerate(spec.groups):
         yield from group_problems(group, (*path, "groups", index))
+    if spec.blocks is None and size_nm(spec).area_um2 > MAX_BLOCKS * spec.block_um**2:
+        least = math.ceil((size_nm(spec).area_um2 / MAX_BLOCKS) ** 0.5)
+        text = f"{spec.block_um:g} makes more than {MAX_BLOCKS} blocks: use {least} or more"
+        yield Problem((*path, "block_um"), text)
     if spec.blocks is not None:
         for text in block_problems(spec.blocks, spec):
             yield Problem((*path, "blocks"), text)
+            return
 
 
-def group_problems(group: Group, path: Path) -> Iterator[Problem]:
+def group_problems(group: Group, path: FieldPath) -> Iterator[Problem]:
     """All problems of a group."""
     yield from _field_problems(group, path)
     for width, spacing in (("width_nm", "spacing_nm"), ("cross_width_nm", "cross_spacing_nm")):
@@ -112,13 +120,22 @@ def _wafer_problems(layout: Layout, wafer: Wafer) -> Iterator[Problem]:
             "fewer",
         )
         return
+    lane_mm = wafer.scribe_um / 1000
+    pitch_mm2 = (product.width_mm + lane_mm) * (product.height_mm + lane_mm)
+    if wafer.diameter_mm**2 > MAX_DIES * pitch_mm2:
+        yield Problem(
+            ("dies", 0, "width_mm"),
+            f"so small a die is there more than {MAX_DIES} times on a wafer of "
+            f"{wafer.diameter_mm} mm: make it larger or leave [wafer] out",
+        )
+        return
     if wafer.test_fields and len(layout.dies) < 2:
         yield Problem(("wafer", "test_fields"), "there is no second die to stand there: add one")
         return
     for index, place in enumerate(wafer.test_fields):
         if place in wafer.test_fields[:index]:
             yield Problem(("wafer", "test_fields", index), f"field {list(place)} is there twice")
-        if not len(test_dies_mm(layout, place)):
+        if not len(test_field_dies_mm(layout, place)):
             yield Problem(
                 ("wafer", "test_fields", index),
                 f"field {list(place)} is not wholly on the wafer, or too small for the die "
@@ -126,13 +143,15 @@ def _wafer_problems(layout: Layout, wafer: Wafer) -> Iterator[Problem]:
             )
 
 
-def _twice(names: list[str], path: Path) -> Iterator[Problem]:
+def _twice(names: list[str], path: FieldPath) -> Iterator[Problem]:
+    seen = set()
     for index, name in enumerate(names):
-        if name in names[:index]:
+        if name in seen:
             yield Problem((*path, index, "name"), f"'{name}' is already taken: choose another")
+        seen.add(name)
 
 
-def _field_problems(thing: object, path: Path) -> Iterator[Problem]:
+def _field_problems(thing: object, path: FieldPath) -> Iterator[Problem]:
     """Values of a dataclass outside their rules; dataclasses inside it have their own checks."""
     for declared in dataclasses.fields(thing):
         value, here = getattr(thing, declared.name), (*path, declared.name)

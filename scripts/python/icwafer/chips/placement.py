@@ -79,7 +79,7 @@ def place_dies(layout: Layout) -> WaferMap:
         kept &= (die_field != place).any(axis=1)
     centres, fields, partial = [centre[kept]], [die_field[kept]], [~complete[kept]]
     for place in wafer.test_fields:
-        tests = test_dies_mm(layout, place)
+        tests = test_field_dies_mm(layout, place)
         centres.append(tests)
         fields.append(np.tile(np.array(place, dtype=np.int32), (len(tests), 1)))
         partial.append(np.zeros(len(tests), dtype=bool))
@@ -119,7 +119,7 @@ def drift_at(drift: Drift, position_mm: np.ndarray, radius_mm: float) -> np.ndar
     )
 
 
-def test_dies_mm(layout: Layout, place: tuple[int, int]) -> np.ndarray:
+def test_field_dies_mm(layout: Layout, place: tuple[int, int]) -> np.ndarray:
     """Middles (k, 2) of the test dies that fill a field; k is 0 where they do not fit on it."""
     wafer, product, test = layout.wafer, layout.dies[0], layout.dies[1]
     field, lane = reticle_field(product, wafer), wafer.scribe_um / 1000

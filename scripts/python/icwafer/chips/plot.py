@@ -56,10 +56,10 @@ def _draw_die(axes: plt.Axes, die: Die) -> None:
 
 
 def _draw_spacing(axes: plt.Axes, die: Die) -> None:
-    """Area over the spacing, in steps of a fiftieth of an octave, one colour for each group."""
+    """Area over the spacing in a hundred steps of equal ratio, one colour for each group."""
     diffracts = die.diffraction > 0
     lowest, highest = die.spacing_nm[diffracts].min(), die.spacing_nm[diffracts].max()
-    bins = np.exp2(np.arange(np.log2(lowest) - 0.1, np.log2(highest) + 0.1, 0.02))
+    bins = np.geomspace(0.95 * lowest, 1.05 * highest, 101)
     area = die.area_nm2 / MM**2
     colours = die_colours(die)
     below = np.zeros(len(bins) - 1)
@@ -73,7 +73,7 @@ def _draw_spacing(axes: plt.Axes, die: Die) -> None:
             )
             below += heights
     axes.set_xscale("log")
-    ticks = np.unique(np.round(bins[:: max(1, len(bins) // 8)], -1))
+    ticks = np.unique(np.round(bins[::12], -1))
     axes.set_xticks(ticks, [f"{tick:.0f}" for tick in ticks])
     axes.minorticks_off()
     axes.set_xlabel("wire spacing, nm")

@@ -50,6 +50,8 @@ def _set(document: dict[str, Any], setting: str, key: str, value: str) -> None:
     steps = key.split(".")
     if steps[0].partition("[")[0] in {field.name for field in dataclasses.fields(DieSpec)}:
         steps.insert(0, "dies[1]")
+    if steps[0] == "wafer":
+        document.setdefault("wafer", {})
     table = document
     for step in steps[:-1]:
         table = _inside(table, step, setting)

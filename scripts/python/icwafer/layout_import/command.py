@@ -68,7 +68,7 @@ def _between(text: str, low: float, high: float) -> float:
 
 
 def _import(arguments: argparse.Namespace) -> int:
-    packages.install("layout", "import")
+    packages.install("import")
     from icwafer.chips.document import ENDING, write_layout
     from icwafer.layout_import.importer import import_layout
     from icwafer.layout_import.process import read_process

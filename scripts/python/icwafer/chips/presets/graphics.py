@@ -3,13 +3,13 @@
 
 Size and arrangement after NVIDIA's H100 (814 mm2; architecture paper, 2022): eight clusters of
 processors around the shared cache and its crossbar, memory interfaces on two sides, links on
-another. Wiring as in Intel's 65 nm process.
+another. Wiring as in Intel's 45 nm process.
 """
 
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
-from icwafer.chips.presets.metals import INTEL65_M6, INTEL65_M7, INTEL65_M8
+from icwafer.chips.presets.metals import INTEL45_M6, INTEL45_M7, INTEL45_M8
 from icwafer.chips.presets.parts import (
     STRIP,
     chip,
@@ -90,14 +90,14 @@ LAYOUT = Layout(
             height_mm=26.0,
             block_um=190.0,
             groups=(
-                group("logic", Kind.LOGIC, INTEL65_M8, weight=4.0, across=INTEL65_M7),
-                group("dense logic", Kind.LOGIC, INTEL65_M7, diffraction=0.4, turned=1.0),
-                group("shared cache", Kind.MEMORY, INTEL65_M7, 0.001, diffraction=0.6, weight=0.0),
-                group("cache", Kind.MEMORY, INTEL65_M6, variation=0.003, turned=1.0),
-                group("register files", Kind.MEMORY, INTEL65_M6, variation=0.003, diffraction=0.6),
-                group("interfaces", Kind.ANALOG, INTEL65_M8, variation=0.02, turned=0.5),
-                group("crossbar", Kind.BUS, INTEL65_M8, variation=0.002, turned=1.0),
-                *dark_groups(INTEL65_M8),
+                group("logic", Kind.LOGIC, INTEL45_M8, weight=4.0, across=INTEL45_M7),
+                group("dense logic", Kind.LOGIC, INTEL45_M7, diffraction=0.4, turned=1.0),
+                group("shared cache", Kind.MEMORY, INTEL45_M7, 0.001, diffraction=0.6, weight=0.0),
+                group("cache", Kind.MEMORY, INTEL45_M6, variation=0.003, turned=1.0),
+                group("register files", Kind.MEMORY, INTEL45_M6, variation=0.003, diffraction=0.6),
+                group("interfaces", Kind.ANALOG, INTEL45_M8, variation=0.02, turned=0.5),
+                group("crossbar", Kind.BUS, INTEL45_M8, variation=0.002, turned=1.0),
+                *dark_groups(INTEL45_M8),
             ),
         ),
     ),

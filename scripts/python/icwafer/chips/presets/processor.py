@@ -3,14 +3,14 @@
 
 Size and arrangement after the core die of AMD's Zen 2 (10.32 x 7.34 mm; two complexes of four
 cores, each core with its slice of the shared cache in the middle). The upper wiring layers of that
-7 nm process are not published: those of Intel's 45 nm stand in.
+7 nm process are not published: those of Intel's 65 nm stand in.
 """
 
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
 from icwafer.chips.presets import test_chip
-from icwafer.chips.presets.metals import INTEL45_M6, INTEL45_M7, INTEL45_M8
+from icwafer.chips.presets.metals import INTEL65_M6, INTEL65_M7, INTEL65_M8
 from icwafer.chips.presets.parts import (
     STRIP,
     chip,
@@ -80,14 +80,14 @@ LAYOUT = Layout(
             height_mm=7.34,
             block_um=80.0,
             groups=(
-                group("logic", Kind.LOGIC, INTEL45_M8, weight=4.0, across=INTEL45_M7),
-                group("dense logic", Kind.LOGIC, INTEL45_M7, diffraction=0.4, turned=1.0),
-                group("shared cache", Kind.MEMORY, INTEL45_M7, 0.001, diffraction=0.6, weight=0.0),
-                group("cache", Kind.MEMORY, INTEL45_M6, variation=0.003, diffraction=0.6),
-                group("register files", Kind.MEMORY, INTEL45_M6, turned=1.0, weight=2.0),
-                group("interfaces", Kind.ANALOG, INTEL45_M8, variation=0.02, turned=0.5),
-                group("interconnect", Kind.BUS, INTEL45_M8, variation=0.002, turned=1.0),
-                *dark_groups(INTEL45_M8),
+                group("logic", Kind.LOGIC, INTEL65_M8, weight=4.0, across=INTEL65_M7),
+                group("dense logic", Kind.LOGIC, INTEL65_M7, diffraction=0.4, turned=1.0),
+                group("shared cache", Kind.MEMORY, INTEL65_M7, 0.001, diffraction=0.6, weight=0.0),
+                group("cache", Kind.MEMORY, INTEL65_M6, variation=0.003, diffraction=0.6),
+                group("register files", Kind.MEMORY, INTEL65_M6, turned=1.0, weight=2.0),
+                group("interfaces", Kind.ANALOG, INTEL65_M8, variation=0.02, turned=0.5),
+                group("interconnect", Kind.BUS, INTEL65_M8, variation=0.002, turned=1.0),
+                *dark_groups(INTEL65_M8),
             ),
         ),
         test_chip.DIE,
