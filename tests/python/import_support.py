@@ -66,12 +66,11 @@ def wires(
     """Parallel wires that cover a square from -reach to reach about the origin, and more."""
     c, s = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
     count, length = int(1.5 * reach / period) + 2, 1.5 * reach
+    middles = (np.arange(-count, count + 1) + shift) * period
+    half = duty * period / 2
     return [
-        [
-            (c * x - s * y, s * x + c * y)
-            for x, y in box(-length, (i + shift - duty / 2) * period, length, (i + shift + duty / 2) * period)
-        ]
-        for i in range(-count, count + 1)
+        [(c * x - s * y, s * x + c * y) for x, y in box(-length, v - half, length, v + half)]
+        for v in middles
     ]
 
 

@@ -142,7 +142,8 @@ class Mistaken(BadFileCase):
             self.refused(path, f"{count} times the cell 'LINE'", "pitch of 0")
 
     def test_array_with_pitch_is_fine(self) -> None:
-        body = cell(b"LINE", BOX) + cell(b"TOPS", array(b"LINE", 3, 2, (0, 0, 60_000, 0, 0, 40_000)))
+        repeated = array(b"LINE", 3, 2, (0, 0, 60_000, 0, 0, 40_000))
+        body = cell(b"LINE", BOX) + cell(b"TOPS", repeated)
         path = self.bytes_file("chip.gds", HEADER + body + END)
         output = str(self.folder / "chip.layout.toml")
         status, _, error = self.icwafer("layout", "import", str(path), "-o", output)

@@ -90,8 +90,8 @@ class Gratings(ImportCase):
         design = write(
             self.folder / "chip.def",
             "VERSION 5.8 ;\nDESIGN chip ;\nUNITS DISTANCE MICRONS 1000 ;\n"
-            "DIEAREA ( 0 0 ) ( 30000 30000 ) ;\nNETS 1 ;\n- n + ROUTED met2 ( 230 0 ) ( * 30000 )\n"
-            f"{tracks} ;\nEND NETS\nEND DESIGN\n",
+            "DIEAREA ( 0 0 ) ( 30000 30000 ) ;\nNETS 1 ;\n"
+            f"- n + ROUTED met2 ( 230 0 ) ( * 30000 )\n{tracks} ;\nEND NETS\nEND DESIGN\n",
         )
         lef = write(self.folder / "tech.lef", LEF)
         (finding,) = imported(design, lef=(lef,)).findings[0, 0]
@@ -123,7 +123,8 @@ class Layouts(ImportCase):
     def test_equal_tiles_become_one_block_and_the_rest_is_dark(self) -> None:
         """Two thirds of the chip are lines along x, the upper third has one large plate."""
         lines = [box(0, i * 0.8, 90, i * 0.8 + 0.3) for i in range(75)]
-        path = self.write("chip.gds", {"70/20": lines + [box(10, 62, 80, 89.9), box(0, 89, 90, 90)]})
+        plate = [box(10, 62, 80, 89.9), box(0, 89, 90, 90)]
+        path = self.write("chip.gds", {"70/20": lines + plate})
         output, picture = self.folder / "chip.layout.toml", self.folder / "chip.png"
         status, text, error = self.icwafer(
             "layout", "import", str(path), "--tile", "30", "-o", str(output), "--map", str(picture)
@@ -134,7 +135,9 @@ class Layouts(ImportCase):
         self.assertEqual((die.name, die.width_mm, die.height_mm), ("TOP", 0.09, 0.09))
         self.assertEqual(len(die.blocks), 2)
         wired, dark = (die.groups[i] for i in die.blocks.group)
-        self.assertEqual(die.blocks.rect_nm.tolist(), [[0, 0, 90000, 60000], [0, 60000, 90000, 90000]])
+        self.assertEqual(
+            die.blocks.rect_nm.tolist(), [[0, 0, 90000, 60000], [0, 60000, 90000, 90000]]
+        )
         self.assertAlmostEqual(wired.spacing_nm.mean, 800, delta=0.8)
         self.assertEqual(dark.diffraction.mean, 0)
         self.assertGreater(picture.stat().st_size, 1000)

@@ -35,7 +35,7 @@ def register(add_action: AddAction) -> None:
         "--tile",
         type=_length,
         metavar="UM",
-        help="side of a tile; default 50, or for large chips what gives 500 tiles",
+        help="side of a tile; default 25, or for large chips what gives 500 tiles",
     )
     command.add_argument(
         "--window",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Exact Fourier transforms of outlines under a Hann window, and fits of combs of harmonics to them.
+"""Exact Fourier transforms of outlines under a Hann window, and fits of harmonics to them.
 
 Frequencies are vectors (fx, fy) in cycles per micrometre. The window is cos^2(pi x / w)
 cos^2(pi y / h) over a tile of w x h: it lets a tile hold any fraction of a period, because its

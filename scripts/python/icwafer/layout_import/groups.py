@@ -72,7 +72,7 @@ def _near(one: float, other: float, tolerance: float) -> bool:
 
 
 def layout_group(looks: Sequence[Look], number: int, process: Process) -> Group:
-    """The group of a layout for tiles that look alike: their means, the spread of their spacing."""
+    """The group of a layout for tiles that look alike: their means, and how the spacing varies."""
     first = looks[0]
     if first.layer < 0:
         return Group(

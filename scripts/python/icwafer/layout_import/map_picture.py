@@ -21,15 +21,20 @@ SIDE_PX = 1024
 def layout_map(layout: Layout) -> np.ndarray:
     """The first die from above in false colours, (height, width, 3) float32 in 0 to 1.
 
-    The colours are those of `icwafer.chips.view`, hue by spacing and pale where the wires run
-    along y; the strongest block is as bright as can be, and stripes show the wires' direction.
+    The colours are those of `icwafer.chips.view`, but the hue goes around the circle once from
+    0.2 to 6.4 um; pale where the wires run along y, the strongest block as bright as can be.
+    Stripes show the direction of the wires.
     """
     die = generate(layout.dies[0])
     width_nm, height_nm = die.size_nm
     width_px = max(1, round(SIDE_PX * width_nm / max(width_nm, height_nm)))
     strongest = max(float(die.diffraction.max()), 1e-6)
-    bright = dataclasses.replace(die, diffraction=0.7 * np.sqrt(die.diffraction / strongest))
-    picture = die_picture(bright, width_px)
+    shown = dataclasses.replace(
+        die,
+        spacing_nm=500 * (die.spacing_nm / 200) ** (1 / 5),
+        diffraction=0.7 * np.sqrt(die.diffraction / strongest),
+    )
+    picture = die_picture(shown, width_px)
     rows, columns = picture.shape[:2]
     y, x = np.mgrid[rows - 0.5 : -0.5 : -1, 0.5:columns]
     scale = width_nm / columns

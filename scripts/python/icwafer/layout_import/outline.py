@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The outlines of merged shapes inside a window: area, mean width, and an exact coverage raster."""
+"""Outlines of merged shapes inside a window: area, mean width, an exact coverage raster."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def rasterise(outline: Outline, columns: int, rows: int) -> np.ndarray:
 def _cuts(
     x0: np.ndarray, x1: np.ndarray, y0: np.ndarray, y1: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where edges enter a new pixel: index of the edge and position along it (0 to 1), in order."""
+    """Where edges enter a new pixel: index of the edge and place along it (0 to 1), in order."""
     edges, positions = [np.arange(len(x0))], [np.zeros(len(x0))]
     for begin, end in ((x0, x1), (y0, y1)):
         first = np.floor(np.minimum(begin, end)).astype(np.int64) + 1

@@ -86,7 +86,7 @@ class Process:
     name: str = ruled("what it is called")
     oxide_top_um: float = ruled("upper side of the oxide above the highest metal", 0, 100)
     layers: tuple[MetalLayer, ...] = ruled("its metal layers", 1, 64)
-    nitride_um: float = ruled("thickness of the silicon nitride above the oxide", 0, 20, default=0.0)
+    nitride_um: float = ruled("silicon nitride above the oxide", 0, 20, default=0.0)
 
     def oxide_nm(self, layer: MetalLayer) -> float:
         """Oxide above a layer; nitride counts as the oxide of the same optical thickness."""
@@ -123,7 +123,8 @@ def read_process(name: str) -> Process:
         raise IcwaferError(f"{path}: not valid TOML: {error}; correct it") from None
     if table.pop("format", None) != FORMAT or table.pop("version", None) != VERSION:
         raise IcwaferError(
-            f'{path}:1: no layer map: it must begin with format = "{FORMAT}" and version = {VERSION}'
+            f'{path}:1: no layer map: it must begin with format = "{FORMAT}" and '
+            f"version = {VERSION}"
         )
     try:
         return _process(table)
@@ -158,7 +159,10 @@ def _checked(cls: type, table: object, path: tuple[str | int, ...]) -> Any:
     for name, field in fields.items():
         if name not in table and field.default is dataclasses.MISSING:
             raise _Wrong(path, f"{name} is missing: give {rule_of(field).help}")
-    values = {name: _value(hints[name], fields[name], table[name], (*path, name)) for name in table}
+    values = {
+        name: _value(hints[name], fields[name], value, (*path, name))
+        for name, value in table.items()
+    }
     if cls is MetalLayer:
         values.setdefault("lef", values["name"])
     return cls(**values)

@@ -31,7 +31,7 @@ MOST_SHAPES = 1_000_000_000
 MOST_EDGES = 1_000_000
 #: Without a wish: tiles of this side, or larger ones that are not more than so many, and of each
 #: a window of at most this side.
-USUAL_TILE_UM = 50.0
+USUAL_TILE_UM = 25.0
 USUAL_TILES = 500
 USUAL_WINDOW_UM = 50.0
 SMALLEST_UM, LARGEST_UM = 1.0, 300_000.0
@@ -103,7 +103,8 @@ def _answer(request: dict[str, Any], answer: BinaryIO) -> None:
             f"{layout.dbu:g} um, and a chip {SMALLEST_UM:g} to {LARGEST_UM:g} um: correct the "
             "units in the file"
         )
-    tile_um = request["tile_um"] or max(USUAL_TILE_UM, (size_um[0] * size_um[1] / USUAL_TILES) ** 0.5)
+    usual_um = max(USUAL_TILE_UM, (size_um[0] * size_um[1] / USUAL_TILES) ** 0.5)
+    tile_um = request["tile_um"] or usual_um
     window = (request["window_um"] or USUAL_WINDOW_UM) / layout.dbu
     tiles = [max(1, round(side / tile_um)) for side in size_um]
     _send(answer, top=top.name, size_um=size_um, tiles=tiles)
