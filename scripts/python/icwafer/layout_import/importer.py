@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-import logging
 import os
+import signal
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -18,8 +18,6 @@ from icwafer.layout_import.groups import group_looks, layout_group, rectangles
 from icwafer.layout_import.optics import Finding, Look, look_of
 from icwafer.layout_import.reader import Chip, Cutout, Request, cut_out
 from icwafer.layout_import.spectrum import find_gratings
-
-_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -64,7 +62,7 @@ def import_layout(request: Request) -> Imported:
 def _examined(parts: Iterator[Cutout]) -> Iterator[tuple[Cutout, list]]:
     """The gratings of each cutout, in order; never many cutouts at once."""
     jobs = len(os.sched_getaffinity(0))
-    with ProcessPoolExecutor(jobs) as pool:
+    with ProcessPoolExecutor(jobs, initializer=_leave_interrupts_to_the_parent) as pool:
         waiting: deque[tuple[Cutout, Future]] = deque()
         try:
             for cutout in parts:
@@ -77,6 +75,10 @@ def _examined(parts: Iterator[Cutout]) -> Iterator[tuple[Cutout, list]]:
         finally:
             for _, future in waiting:
                 future.cancel()
+
+
+def _leave_interrupts_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _layout(request: Request, chip: Chip, looks: list[Look]) -> Layout:
