@@ -11,7 +11,7 @@ from import_support import box  # noqa: F401  (sets the path)
 
 from icwafer.layout_import.groups import group_looks, layout_group, rectangles
 from icwafer.layout_import.optics import Finding, Look, look_of
-from icwafer.layout_import.process import read_process
+from icwafer.layout_import.process import built_in, read_process
 from icwafer.layout_import.spectrum import Grating
 
 SKY130 = read_process("sky130")
@@ -65,6 +65,17 @@ class Looks(unittest.TestCase):
     def test_dark(self) -> None:
         self.assertEqual(look_of([], SKY130), Look())
         self.assertEqual(look_of([Finding(MET4, 0.02, grating(1, 0.5, 1, 0))], SKY130), Look())
+
+
+class Processes(unittest.TestCase):
+    def test_all_that_come_with_it_make_sense(self) -> None:
+        self.assertEqual(built_in(), ("sg13g2", "sky130"))
+        for name in built_in():
+            process = read_process(name)
+            self.assertEqual(process.name, name)
+            for upper, lower in zip(process.layers, process.layers[1:]):
+                self.assertGreater(upper.bottom_um, lower.top_um)
+                self.assertLessEqual(process.oxide_nm(upper), process.oxide_nm(lower))
 
 
 class Groups(unittest.TestCase):
