@@ -78,7 +78,8 @@ def _examined(parts: Iterator[Cutout]) -> Iterator[tuple[Cutout, list]]:
 
 
 def _leave_interrupts_to_the_parent() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
 
 
 def _layout(request: Request, chip: Chip, looks: list[Look]) -> Layout:
