@@ -184,6 +184,8 @@ class Mistaken(BadFileCase):
         path = self.klayout_file("chip.gds", {"TOP": SQUARE})
         arguments = ["layout", "import", str(path), "-o", str(self.folder / "chip.toml")]
         self.expect_error(arguments, 1, ".layout.toml")
+        arguments = ["layout", "import", str(path), "--map", str(self.folder / "map.xyz")]
+        self.expect_error(arguments, 1, "map.xyz", ".png")
 
     def test_options(self) -> None:
         for option in ("--tile", "--window", "--limit-gb"):

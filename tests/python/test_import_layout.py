@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from import_support import box, wires, write_layouts
+from matplotlib.image import imread
 from support import REPOSITORY, CommandCase, write
 
 from icwafer.chips.document import read_layout
@@ -140,7 +141,9 @@ class Layouts(ImportCase):
         )
         self.assertAlmostEqual(wired.spacing_nm.mean, 800, delta=0.8)
         self.assertEqual(dark.diffraction.mean, 0)
-        self.assertGreater(picture.stat().st_size, 1000)
+        pixels = imread(picture)[..., :3]
+        self.assertEqual(pixels.shape[:2], (1024, 1024))
+        self.assertGreater(pixels[400:].mean(), 5 * pixels[:300].mean())  # the dark third is above
 
     def test_same_file_same_bytes(self) -> None:
         rng = np.random.default_rng(4)

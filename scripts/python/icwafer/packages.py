@@ -49,7 +49,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "opencollada-dev",
     ),
     "layout": ("python3-matplotlib",),
-    "import": ("klayout", "python3-numpy", "python3-openimageio"),
+    "import": ("klayout",),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }
 

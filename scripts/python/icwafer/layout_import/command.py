@@ -68,7 +68,7 @@ def _between(text: str, low: float, high: float) -> float:
 
 
 def _import(arguments: argparse.Namespace) -> int:
-    packages.install("import")
+    packages.install("layout", "import")
     from icwafer.chips.document import ENDING, write_layout
     from icwafer.layout_import.importer import import_layout
     from icwafer.layout_import.process import read_process
@@ -78,6 +78,8 @@ def _import(arguments: argparse.Namespace) -> int:
     output = arguments.output or Path(source.name.split(".")[0] + ENDING)
     if not output.name.endswith(ENDING):
         raise IcwaferError(f"{output}: a layout's name ends with {ENDING}; add that")
+    if arguments.map and arguments.map.suffix != ".png":
+        raise IcwaferError(f"{arguments.map}: a map's name ends with .png; add that")
     limits = Limits(
         arguments.limit_gb or Limits.memory_gb, round(arguments.limit_s or Limits.seconds)
     )

@@ -7,12 +7,11 @@ import dataclasses
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO as oiio
+from matplotlib.image import imsave
 
 from icwafer.chips.die import generate
 from icwafer.chips.model import Layout
 from icwafer.chips.view import die_picture
-from icwafer.errors import IcwaferError
 from icwafer.files import replacing
 
 SIDE_PX = 1024
@@ -46,13 +45,6 @@ def layout_map(layout: Layout) -> np.ndarray:
 
 
 def write_map(path: Path, layout: Layout) -> None:
-    """Writes the map as a picture, complete or not at all. Raises IcwaferError."""
-    picture = np.ascontiguousarray(layout_map(layout))
-    rows, columns, channels = picture.shape
+    """Writes the map as a PNG, complete or not at all. Raises OSError."""
     with replacing(path) as unfinished:
-        output = oiio.ImageOutput.create(str(unfinished))
-        spec = oiio.ImageSpec(columns, rows, channels, "uint8")
-        if not output or not output.open(str(unfinished), spec) or not output.write_image(picture):
-            reason = (output.geterror() if output else oiio.geterror()) or "unknown format"
-            raise IcwaferError(f"{path}: cannot be written as a picture: {reason}; try NAME.png")
-        output.close()
+        imsave(unfinished, layout_map(layout), format="png")
