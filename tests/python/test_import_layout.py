@@ -163,7 +163,7 @@ class RealChip(unittest.TestCase):
 
     def test_tracks_and_rows(self) -> None:
         process = read_process("sky130")
-        found = imported(REAL_CHIP)
+        found = imported(REAL_CHIP, tile_um=50)
         self.assertEqual(found.chip.size_um, (150.0, 170.0))
         middle = found.findings[1, 1]
         for name, period, width, angle in (
