@@ -17,7 +17,7 @@ _log = logging.getLogger(__name__)
 #: Packages by purpose. Every build needs "base"; "images" is what reads, compares and labels
 #: pictures, also on a machine that builds nothing; "core" are the C++ tests of the material, "host"
 #: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and draws
-#: chips and wafers, "test" are the tests that start Blender or a browser.
+#: chips and wafers, "import" reads real chips, "test" are the tests that start Blender or a browser.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build"),
     "images": (
@@ -55,6 +55,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "opencollada-dev",
     ),
     "layout": ("python3-matplotlib",),
+    "import": ("klayout",),
     "test": (
         "blender",
         "chromium",
