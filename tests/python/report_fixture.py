@@ -30,7 +30,7 @@ def picture(spacing_nm: float, lobe: float) -> np.ndarray:
     return bands * np.linspace(0, 4, SIZE[1])[:, None, None]
 
 
-def write_study(folder: Path, name: str = "Spacing & lobe <test>") -> Path:
+def write_study(folder: Path, name: str = "Spacing & lobe <test> </script><!-- <script>") -> Path:
     """A reference, five more renders (one as PNG only), a failed job and one without a word."""
     study = {
         "name": name,

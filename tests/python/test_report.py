@@ -81,7 +81,7 @@ class Load(CompareCase):
 
     def test_jobs(self) -> None:
         loaded = study.load(self.study)
-        self.assertEqual(loaded.name, "Spacing & lobe <test>")
+        self.assertTrue(loaded.name.startswith("Spacing & lobe <test>"))
         ids = [job.id for job in loaded.jobs if not job.error]
         self.assertEqual(ids[:3], ["spacing900-lobe0.01", "spacing900-lobe0.03", REFERENCE])
         self.assertEqual(len(ids), 6)
@@ -147,7 +147,7 @@ class Write(CompareCase):
         self.assertEqual(float(rows[REFERENCE]["rms"]), 0)
         self.assertIn("--only", rows[REFERENCE]["command"])
         page = (self.study / "report.html").read_text()
-        self.assertIn("<title>Spacing &amp; lobe &lt;test&gt;</title>", page)
+        self.assertIn("<title>Spacing &amp; lobe &lt;test&gt; &lt;/script&gt;", page)
         self.assertNotIn("{{", page.split("<script")[0])
         self.assertNotIn("http", page.replace("http-equiv", "").replace("http://www.w3.org", ""))
 

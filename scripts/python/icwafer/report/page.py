@@ -203,8 +203,8 @@ def _html(
         "script": "\n".join(
             (_PARTS / f"{name}.js").read_text(encoding="utf-8") for name in _SCRIPTS
         ),
-        # "</" would end the element.
-        "study": json.dumps(data, allow_nan=False).replace("</", "<\\/"),
+        # No text of a study may end the element.
+        "study": json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
         "blobs": "\n".join(
             f'<script type="text/plain" data-name="{html.escape(name)}">{text}</script>'
             for name, text in blobs.items()
