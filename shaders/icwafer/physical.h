@@ -257,20 +257,24 @@ ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p)
                   0.0f};
 }
 
-/* The most that the contrast can be within a group of orders, from what it is at the group's
- * middle. With thickness h of the film, 4 pi h / lambda bounds how much its phase changes an
+/* The most that the contrast can be within a group of orders, or within lobes, from what it is in
+ * their middle. With thickness h of the film, 4 pi h / lambda bounds how much its phase changes an
  * amplitude per unit of the cosine (Airy's resonances are narrower at grazing angles, but the
- * phase is slower there by the same factor); 8 was found to cover Fresnel's amplitudes. The
- * cosine is the mean of two, one of which is the same for all orders. */
+ * phase is slower there by the same factor); for single orders 8 more was found to cover
+ * Fresnel's amplitudes. A lobe lies on both sides of its middle, so only the second order of the
+ * change remains in its mean.
+ *   group_range, lobe_range   how far the cosine reaches from the middle; the cosine of the film
+ *                             is the mean of two, one of which is the same for all orders */
 ICW_DEVICE Lanes largest_contrast(const PhysicalParams &p,
                                   const Lanes contrast,
-                                  const Lanes cosine_range,
+                                  const Lanes group_range,
+                                  const Lanes lobe_range,
                                   const Lanes per_nm)
 {
-  const Lanes slope = (4.0f * pi * (p.oxide_nm + p.groove_nm)) * per_nm + 8.0f;
-  const Lanes amplitude = lanes_min(lanes_sqrt(contrast) + 0.5f * cosine_range * slope,
-                                    lanes(2.0f));
-  return amplitude * amplitude;
+  const Lanes slope = (2.0f * pi * (p.oxide_nm + p.groove_nm)) * per_nm;
+  const Lanes amplitude = lanes_sqrt(contrast) + group_range * (slope + 4.0f);
+  const Lanes lobe = lobe_range * slope;
+  return lanes_min(amplitude * amplitude + lobe * lobe, lanes(4.0f));
 }
 
 /* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
@@ -284,6 +288,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
                                       const Lanes per_nm)
 {
   const float cosine = sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f));
+  const float sigma_0 = sqrtf(lobe_variance(p, 550.0f, 0.0f));
   Lanes others = lanes(4.0f * bound.diagonal);
   /* Groups of each axis that may be above the horizon. */
   int used[2] = {bound.across.count, bound.along.count};
@@ -308,25 +313,35 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
       rest -= 2.0f * groups.weight[group];
       bool above_horizon = false;
       for (int side = -1; side <= 1; side += 2) {
-        /* 0 below the horizon. */
-        const auto cosine_of = [&](const float order) {
+        /* How far from the normal an order is, and its cosine, 0 below the horizon. */
+        const auto sine_of = [&](const float order) {
           const Lanes sine = mid + float(side) * order * per_order;
-          return lanes_sqrt(
-              lanes_max(1.0f - square(mid_other) - sine * sine, lanes(0.0f)));
+          return lanes_sqrt(square(mid_other) + sine * sine);
+        };
+        const auto cosine_of = [](const Lanes sine) {
+          return lanes_sqrt(lanes_max(1.0f - sine * sine, lanes(0.0f)));
         };
         const float order = groups.order[group], reach = groups.reach[group];
-        const Lanes near = cosine_of(order - reach), far = cosine_of(order + reach);
-        const Lanes highest = lanes_max(near, far);
-        if (lanes_largest(highest) > 0.0f) {
+        const Lanes middle = sine_of(order);
+        const Lanes first = reach > 0.0f ? sine_of(order - reach) : middle;
+        const Lanes last = reach > 0.0f ? sine_of(order + reach) : middle;
+        const Lanes sigma = sigma_0 + p.variation * order * per_order;
+        /* The part of a lobe that may be above the horizon, at least. */
+        const Lanes above = lanes_min(
+            lanes_max(1.0f + 0.5f * (1.0f - lanes_min(first, last)) / sigma, lanes(0.0f)),
+            lanes(1.0f));
+        if (lanes_largest(above) > 0.0f) {
           above_horizon = true;
-          const Lanes middle = cosine_of(order);
-          Lanes contrast =
-              levels(p, 0.5f * (cosine + middle), film_ior, metal, per_nm).contrast;
-          if (reach > 0.0f) {
-            const Lanes range = lanes_max(highest - middle, middle - lanes_min(near, far));
-            contrast = largest_contrast(p, contrast, range, per_nm);
-          }
-          others += highest > 0.0f ? groups.weight[group] * contrast : lanes(0.0f);
+          const Lanes cos_middle = cosine_of(middle);
+          const Lanes cos_first = cosine_of(first), cos_last = cosine_of(last);
+          const Lanes group_range = lanes_max(lanes_max(cos_first, cos_last) - cos_middle,
+                                              cos_middle - lanes_min(cos_first, cos_last));
+          const Lanes lobe_range = 0.5f * (cosine_of(lanes_max(middle - sigma, lanes(0.0f))) -
+                                           cosine_of(middle + sigma));
+          const Lanes contrast =
+              levels(p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm).contrast;
+          others += groups.weight[group] * above *
+                    largest_contrast(p, contrast, group_range, lobe_range, per_nm);
         }
       }
       if (!above_horizon) {
