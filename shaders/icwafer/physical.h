@@ -257,12 +257,14 @@ ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p)
                   0.0f};
 }
 
-/* The most that the contrast can be within a group of orders, or within lobes, from what it is in
- * their middle. With thickness h of the film, 4 pi h / lambda bounds how much its phase changes an
- * amplitude per unit of the cosine (Airy's resonances are narrower at grazing angles, but the
- * phase is slower there by the same factor); for single orders 8 more was found to cover
- * Fresnel's amplitudes. A lobe lies on both sides of its middle, so only the second order of the
- * change remains in its mean.
+/* The most that the contrast can be within a group of orders, and its mean over lobes, from what
+ * it is in their middle.
+ *
+ * With thickness h of the film, 4 pi h / lambda bounds how much its phase changes an amplitude per
+ * unit of the cosine (Airy's resonances are narrower at grazing angles, but the phase is slower
+ * there by the same factor); 8 more was found to cover Fresnel's amplitudes. Over a lobe in which
+ * the phase between the two levels has the standard deviation s, the mean of 2 - 2 cos(phase) is
+ * nearer to 2 by exp(-s^2 / 2).
  *   group_range, lobe_range   how far the cosine reaches from the middle; the cosine of the film
  *                             is the mean of two, one of which is the same for all orders */
 ICW_DEVICE Lanes largest_contrast(const PhysicalParams &p,
@@ -271,10 +273,11 @@ ICW_DEVICE Lanes largest_contrast(const PhysicalParams &p,
                                   const Lanes lobe_range,
                                   const Lanes per_nm)
 {
-  const Lanes slope = (2.0f * pi * (p.oxide_nm + p.groove_nm)) * per_nm;
-  const Lanes amplitude = lanes_sqrt(contrast) + group_range * (slope + 4.0f);
-  const Lanes lobe = lobe_range * slope;
-  return lanes_min(amplitude * amplitude + lobe * lobe, lanes(4.0f));
+  const Lanes slope = (two_pi * (p.oxide_nm + p.groove_nm)) * per_nm + 4.0f;
+  const Lanes amplitude = lanes_min(lanes_sqrt(contrast) + group_range * slope, lanes(2.0f));
+  const Lanes group = amplitude * amplitude;
+  const Lanes s = (two_pi * (0.5f * p.oxide_nm + p.groove_nm)) * per_nm * lobe_range;
+  return group + lanes_max(2.0f - group, lanes(0.0f)) * lanes_min(0.5f * s * s, lanes(1.0f));
 }
 
 /* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
