@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measures how often the noise-aware comparison is wrong, on real renders of a die.
 
-    ICWAFER_BLENDER=... PYTHONPATH=scripts/python /usr/bin/python3 tests/benchmarks/noise_error_rates.py
+    PYTHONPATH=scripts/python /usr/bin/python3 tests/benchmarks/noise_error_rates.py
 
 Renders the picture "full" small with many seeds, as it is and with its wire spacing changed; then
 prints, for one and for two renders of each scene, the share of pairs that are called different:

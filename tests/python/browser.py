@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A real Chromium without a window, for the tests of pages, and what it did and complained about."""
+"""A real Chromium without a window, for the tests of pages, and what it complained about."""
 
 from __future__ import annotations
 
@@ -100,7 +100,8 @@ class Browser:
         return self.js(
             # From a copy: Chromium complains when a canvas that is drawn on is read.
             "const [id, x, y] = arguments; const c = document.getElementById(id);"
-            "const context = new OffscreenCanvas(1, 1).getContext('2d', {willReadFrequently: true});"
+            "const copy = new OffscreenCanvas(1, 1);"
+            "const context = copy.getContext('2d', {willReadFrequently: true});"
             "context.drawImage(c, -Math.floor(x * c.width), -Math.floor(y * c.height));"
             "return [...context.getImageData(0, 0, 1, 1).data].slice(0, 3);",
             canvas,

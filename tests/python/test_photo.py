@@ -76,7 +76,7 @@ class Rectify(unittest.TestCase):
 
 class Hues(unittest.TestCase):
     def test_oklab(self) -> None:
-        """The examples of Ottosson's article: XYZ (0.950, 1, 1.089) is white; others by their hue."""
+        """White has lightness 1 and no chroma; the corners of the gamut have their known hues."""
         np.testing.assert_allclose(hues.to_oklab(np.ones(3)), [1, 0, 0], atol=1e-3)
         for name, colour in (("red", [1, 0, 0]), ("green", [0, 1, 0]), ("blue", [0, 0, 1])):
             _, a, b = hues.to_oklab(np.array(colour, dtype=float))

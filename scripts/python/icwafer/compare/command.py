@@ -24,8 +24,8 @@ exit status:
   1  different; the reasons are printed, one a line, after "different:"
   2  bad input, one line on stderr
 Pixels that are NaN or infinite always make a difference. EXR and Radiance files hold scene-linear
-values and are compared as such; other files, and one of each kind, as a screen shows them. FLIP and
-Yee always judge what the screen shows, through the view transform that the result names.
+values and are compared as such; other files, and one of each kind, as a screen shows them. FLIP
+and Yee always judge what the screen shows, through the view transform that the result names.
 
 against a photograph:
   icwafer compare --photo PHOTO --corners X,Y X,Y X,Y X,Y RENDER
@@ -58,7 +58,7 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         type=Path,
         nargs=2,
         metavar=("A2", "B2"),
-        help="renders of the same two scenes with other seeds: makes --noise sharper, and measures "
+        help="renders of the same two scenes with other seeds: makes --noise sharper and measures "
         "the noise",
     )
     parser.add_argument(
@@ -193,8 +193,8 @@ def _print(found: Comparison, failures: list[str]) -> None:
         print(f"noise     {verdict}: p {noise.p:.3g}, level {noise.level:g}, {noise.tests} tests, "
               f"{100 * noise.share:.1f} % of the tiles")  # fmt: skip
         if noise.rms_noise is not None:
-            print(f"          rms {noise.rms:.6g} of the means, {noise.rms_noise:.6g} of it noise, "
-                  f"{noise.rms_beyond:.6g} beyond it")  # fmt: skip
+            print(f"          rms {noise.rms:.6g} of the means, {noise.rms_noise:.6g} of it noise,"
+                  f" {noise.rms_beyond:.6g} beyond it")  # fmt: skip
     for failure in failures:
         print(f"different: {failure}")
     if not failures:

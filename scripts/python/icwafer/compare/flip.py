@@ -137,7 +137,7 @@ def _linear_ldr(reference: np.ndarray, test: np.ndarray, ppd: float) -> np.ndarr
 
 
 def _to_opponent(linear: np.ndarray) -> np.ndarray:
-    """Y C_x C_z: CIELAB without its roots, so that filtering is linear in light (section 4.1.1)."""
+    """Y C_x C_z: CIELAB without its roots, so that filtering is linear in light (4.1.1)."""
     x, y, z = np.moveaxis(srgb.to_xyz(linear), -1, 0)
     return np.stack([116 * y - 16, 500 * (x - y), 200 * (y - z)], axis=-1)
 

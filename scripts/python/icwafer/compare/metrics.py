@@ -55,7 +55,7 @@ def yee(first: np.ndarray, second: np.ndarray, ppd: float, luminance_cd_m2: floa
     """OpenImageIO's perceptual comparison of two images of linear values for a screen, 0 to 1.
 
     ppd: pixels per degree of visual angle. luminance_cd_m2: of the screen's white. OpenImageIO
-    2.4.7 finds differences of colour only: of brightness alone it calls even black and white equal.
+    2.4.7 finds differences of colour only: of brightness alone it calls black and white equal.
     """
     width = first.shape[1]
     field_deg = math.degrees(2 * math.atan(math.radians(width / ppd) / 2))

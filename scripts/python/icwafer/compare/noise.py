@@ -24,7 +24,7 @@ and (A1 - A2 - B1 + B2)/2: of the same variance as (A1 + A2 - B1 - B2)/2.
 All tiles, of several sizes up to the whole image, times three colour axes, times both kinds are
 tested together: the images are different when the smallest p times the number of tests is below
 the level (Bonferroni: valid under every dependence between tests). The map of what differs is that
-of Benjamini and Hochberg 1995 at the same level. A noise bound of the RMS difference comes with it.
+of Benjamini and Hochberg 1995 at the same level.
 """
 
 from __future__ import annotations

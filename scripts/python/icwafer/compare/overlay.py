@@ -52,8 +52,8 @@ def grating_overlay(
 ) -> list[Curve]:
     """Curves of all orders that the picture of `size` (width, height) contains.
 
-    light: the place of a small lamp. camera: upright, its longer side 36 mm of sensor, as Blender's
-    default. direction_rad: from the x axis to the wires, counter-clockwise seen from outside.
+    light: the place of a small lamp. camera: upright, its longer side 36 mm of sensor, as in
+    Blender. direction_rad: from the x axis to the wires, counter-clockwise seen from outside.
     The wafer may end before a curve does.
     """
     columns = np.append(np.arange(0, size[0], step_px), size[0]).astype(float)

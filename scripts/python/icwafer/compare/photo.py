@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A render against a photograph: both without perspective, their colours compared and side by side.
+"""A render against a photograph: both without perspective, colours compared and side by side.
 
 The photograph's camera, lens, white balance and lamp are usually unknown. So brightness is made
 equal, and what counts is the order and the place of the hues.
@@ -99,7 +99,7 @@ def described(found: PhotoComparison) -> list[str]:
         f"photo       {found.photo_path}, rectified to {width}x{height}",
         f"render      {found.render_path}, brightness times {found.gain:.4g}",
         f"view        {found.view}",
-        f"hues        {hue.hue_distance_deg:.1f} degrees apart (0 same distribution, 180 opposite)",
+        f"hues        {hue.hue_distance_deg:.1f} degrees apart (0 one distribution, 180 opposite)",
         f"saturation  {hue.saturation_distance:.4f} apart (chroma over lightness, OKLab)",
         f"bands       correlation {hue.profile_correlation:+.3f} along the line; at best "
         f"{hue.best_correlation:+.3f}, the render moved by {hue.shift:+.2f} of the line and "

@@ -46,9 +46,9 @@ def write(
 ) -> list[Path]:
     """Writes the page, and beside it a CSV, a JSON and, where axes were swept, contact sheets.
 
-    view, look: for jobs that name none. ppd: pixels per degree, for FLIP. figure: SVG for a section
-    of its own. largest_mb: of the page, roughly; the embedded pixels are made as small as that
-    needs, the measures are of the originals.
+    view, look: for jobs that name none. ppd: pixels per degree, for FLIP. figure: SVG for a
+    section of its own. largest_mb: of the page, roughly; the embedded pixels are made as small as
+    that needs, the measures are of the originals.
 
     Raises IcwaferError when no job has a picture; files appear complete or not at all.
     """

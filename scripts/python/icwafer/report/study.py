@@ -7,8 +7,8 @@
                              status, error, grating
     DIR/jobs/ID/image.exr    scene-linear; image.png, as a screen shows it; log.txt
 
-Everything but the name of the study may be missing; without `jobs` all folders count. `grating` is one
-object or a list of them and asks for the orders to be drawn over the picture: `camera`
+Everything but the name of the study may be missing; without `jobs` all folders count. `grating` is
+one object or a list of them and asks for the orders to be drawn over the picture: `camera`
 (position_mm, target_mm, lens_mm), `light` (position_mm), `plane` (point, normal, x_axis),
 `spacing_nm`, `direction_rad`.
 """

@@ -12,7 +12,7 @@ from icwafer.report.study import Study
 
 
 def to_csv(study: Study, measured: dict[str, Measured]) -> str:
-    """One line a job: id, status, every setting, seconds, samples, seed, every measure, command."""
+    """One line a job: id, status, all settings, seconds, samples, seed, all measures, command."""
     settings = list(dict.fromkeys(name for job in study.jobs for name in job.settings))
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
