@@ -25,9 +25,10 @@ struct Cauchy {
   float a, b, c;
 };
 
-ICW_DEVICE float cauchy_index(const Cauchy series, const float wavelength_nm)
+/* `per_nm` is 1 / L, in as many lanes as there are wavelengths. */
+template<typename Real> ICW_DEVICE Real cauchy_index(const Cauchy series, const Real per_nm)
 {
-  const float x = 1.0f / square(wavelength_nm);
+  const Real x = per_nm * per_nm;
   return series.a + x * (series.b + x * series.c);
 }
 
