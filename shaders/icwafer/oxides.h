@@ -26,7 +26,8 @@ struct Cauchy {
 };
 
 /* `per_nm` is 1 / L, in as many lanes as there are wavelengths. */
-template<typename Real> ICW_DEVICE Real cauchy_index(const Cauchy series, const Real per_nm)
+template<typename Real>
+ICW_DEVICE Real cauchy_index(const Cauchy series, const Real per_nm)
 {
   const Real x = per_nm * per_nm;
   return series.a + x * (series.b + x * series.c);

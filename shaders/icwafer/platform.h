@@ -25,6 +25,17 @@ ICW_DEVICE float clamped(const float x, const float low, const float high)
   return x > low ? (x < high ? x : high) : low;
 }
 
+/* Without the library's care for NaN, which costs a call. */
+ICW_DEVICE float larger(const float a, const float b)
+{
+  return a > b ? a : b;
+}
+
+ICW_DEVICE float smaller(const float a, const float b)
+{
+  return a < b ? a : b;
+}
+
 ICW_DEVICE float square(const float x)
 {
   return x * x;
