@@ -64,11 +64,11 @@ ICW_DEVICE FilmPair<Real> film_pair(const Real p,
  *   metal          complex index of the metal
  *   ridge_waves, groove_waves   thickness of the film over the wavelength in vacuum */
 template<typename Real>
-ICW_DEVICE PolarisedFilmPair<Real> film_on_metal(const Real cos_air,
-                                                 const Real film_ior,
-                                                 const Complex<Real> metal,
-                                                 const Real ridge_waves,
-                                                 const Real groove_waves)
+ICW_DEVICE_LARGE PolarisedFilmPair<Real> film_on_metal(const Real cos_air,
+                                                       const Real film_ior,
+                                                       const Complex<Real> metal,
+                                                       const Real ridge_waves,
+                                                       const Real groove_waves)
 {
   const Real sin_squared = 1.0f - cos_air * cos_air;
   const Real film_squared = film_ior * film_ior;

@@ -48,7 +48,10 @@ ICW_DEVICE Lanes order_amplitude(const Lanes m, const Lanes duty)
  *   order, times s, is the same sum (the sampling theorem; s need not be whole).
  *
  * So at most 13 terms are needed, for any number of orders in a lobe. */
-ICW_DEVICE Lanes order_sum(const Lanes x, const Lanes w_0, const float duty, const float variation)
+ICW_DEVICE_LARGE Lanes order_sum(const Lanes x,
+                                 const Lanes w_0,
+                                 const float duty,
+                                 const float variation)
 {
   const float f = duty < 0.5f ? duty : 1.0f - duty;
   const Lanes spread = variation * x;
@@ -60,15 +63,20 @@ ICW_DEVICE Lanes order_sum(const Lanes x, const Lanes w_0, const float duty, con
   const int reach = int(smaller(4.2f * w_most / stride + 0.5f, 8.0f));
 
   const Lanes nearest = lanes_round(x / stride);
+  const Lanes per_w_0 = 1.0f / w_0;
   Lanes sum = lanes(0.0f);
   for (int j = -reach; j <= reach; j++) {
     const Lanes m = (nearest + float(j)) * stride;
     const Lanes amplitude = order_amplitude(m, f_seen);
-    const Lanes spread_m = variation * m;
-    sum += amplitude * amplitude *
-           lanes_gaussian(x - m, lanes_sqrt(w_0 * w_0 + spread_m * spread_m));
+    Lanes per_w = per_w_0;
+    if (variation > 0.0f) {
+      const Lanes spread_m = variation * m;
+      per_w = 1.0f / lanes_sqrt(w_0 * w_0 + spread_m * spread_m);
+    }
+    sum += amplitude * amplitude * per_w * lanes_bell((x - m) * per_w);
   }
-  return lanes_max(stride * sum + (f - f_seen - f * f) * lanes_gaussian(x, w_0), lanes(0.0f));
+  const Lanes tip = (f - f_seen - f * f) * per_w_0 * lanes_bell(x * per_w_0);
+  return 0.39894228f * lanes_max(stride * sum + tip, lanes(0.0f));
 }
 
 /* The same where the orders are too close for any of them to be told from its neighbours in

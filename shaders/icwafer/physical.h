@@ -198,61 +198,129 @@ struct Pair {
   float mid_nu, mid_tau;
 };
 
-/* Sum of eta_mn over all orders but (0, 0), for light from the pair's middle direction. */
-ICW_DEVICE Lanes diffracted(const PhysicalParams &p,
-                            const Pair &pair,
-                            const Lanes film_ior,
-                            const Complex<Lanes> metal,
-                            const Lanes wavelength_nm,
-                            const Lanes per_nm)
+/* Orders +-m of one axis in groups, wider and wider (1, 2, 3-4, 5-7, 8-11, ...): the middle of
+ * each, and U^2 for one side of it. */
+constexpr int group_limit = 9;
+
+struct OrderGroups {
+  int count;
+  float order[group_limit], weight[group_limit];
+  /* Twice U^2 of all orders beyond. */
+  float rest;
+};
+
+ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
+{
+  OrderGroups groups;
+  groups.count = 0;
+  groups.rest = 0.0f;
+  if (!(lattice.spacing_nm > 0.0f)) {
+    return groups;
+  }
+  /* A(m)^2 = (1 - cos(2 pi m f)) / (2 pi^2 m^2); the cosines by Chebyshev's recurrence. */
+  const float cosine_1 = cosf(two_pi * lattice.duty);
+  float cosine = cosine_1, before = 1.0f;
+  float left = lattice.duty * (1.0f - lattice.duty);
+  int first = 1;
+  for (; groups.count < group_limit; groups.count++) {
+    const int last = first + (2 * first) / 5;
+    float weight = 0.0f;
+    for (int m = first; m <= last; m++) {
+      weight += (1.0f - cosine) / (2.0f * square(pi * float(m)));
+      const float next = 2.0f * cosine_1 * cosine - before;
+      before = cosine;
+      cosine = next;
+    }
+    groups.order[groups.count] = 0.5f * float(first + last);
+    groups.weight[groups.count] = square(open) * larger(weight, 0.0f);
+    left -= 2.0f * weight;
+    first = last + 1;
+  }
+  groups.rest = square(open) * larger(left, 0.0f);
+  return groups;
+}
+
+/* What bounds the mirror order: all others, for light from the pair's middle direction. */
+struct MirrorBound {
+  OrderGroups across, along;
+  /* U^2 of the orders with m and n, few and taken at the most that they can be. */
+  float diagonal;
+};
+
+ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p)
+{
+  const bool cross = p.along.spacing_nm > 0.0f;
+  return {order_groups(p.across, cross ? 1.0f - p.along.duty : 1.0f),
+          order_groups(p.along, 1.0f - p.across.duty),
+          cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
+                  0.0f};
+}
+
+/* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
+ * most wavelengths need only the first few for the bound to be out of reach. */
+ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
+                                      const Pair &pair,
+                                      const MirrorBound &bound,
+                                      const Lanes eta,
+                                      const Lanes film_ior,
+                                      const Complex<Lanes> metal,
+                                      const Lanes per_nm)
 {
   const float cosine = sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f));
-  const float variance_u = p.across.duty * (1.0f - p.across.duty);
-  const float variance_v = p.along.spacing_nm > 0.0f ? p.along.duty * (1.0f - p.along.duty) : 0.0f;
-  /* Orders with m and n: few, and taken at the most that they can be. */
-  Lanes sum = lanes(4.0f * variance_u * variance_v);
-
+  Lanes others = lanes(4.0f * bound.diagonal);
+  /* Groups of each axis that may be above the horizon. */
+  int used[2] = {bound.across.count, bound.along.count};
+  float rest = bound.across.rest + bound.along.rest;
   for (int axis = 0; axis < 2; axis++) {
-    const Lattice lattice = axis == 0 ? p.across : p.along;
-    if (!(lattice.spacing_nm > 0.0f)) {
-      continue;
+    const OrderGroups &groups = axis == 0 ? bound.across : bound.along;
+    for (int group = 0; group < groups.count; group++) {
+      rest += 2.0f * groups.weight[group];
     }
-    const float open = axis == 0 ? (p.along.spacing_nm > 0.0f ? 1.0f - p.along.duty : 1.0f) :
-                                   1.0f - p.across.duty;
-    const float mid = axis == 0 ? pair.mid_nu : pair.mid_tau;
-    const float mid_other = axis == 0 ? pair.mid_tau : pair.mid_nu;
-    float left = lattice.duty * (1.0f - lattice.duty);
-    bool above_horizon = true;
-    /* Groups of orders, wider and wider: 1, 2, 3, 4, 5-6, 7-9, ... */
-    for (int first = 1, last = 1; above_horizon && first < 48;
-         first = last + 1, last = first + (first - 1) / 3) {
-      float weight = 0.0f;
-      for (int m = first; m <= last; m++) {
-        weight += square(sinf(pi * float(m) * lattice.duty) / (pi * float(m)));
+  }
+
+  for (int group = 0; group < group_limit; group++) {
+    for (int axis = 0; axis < 2; axis++) {
+      const OrderGroups &groups = axis == 0 ? bound.across : bound.along;
+      if (group >= used[axis]) {
+        continue;
       }
-      const Lanes shift = (0.5f * float(first + last) / lattice.spacing_nm) * wavelength_nm;
-      above_horizon = false;
+      const float spacing_nm = axis == 0 ? p.across.spacing_nm : p.along.spacing_nm;
+      const float mid = axis == 0 ? pair.mid_nu : pair.mid_tau;
+      const float mid_other = axis == 0 ? pair.mid_tau : pair.mid_nu;
+      const Lanes shift = groups.order[group] / (spacing_nm * per_nm);
+      rest -= 2.0f * groups.weight[group];
+      bool above_horizon = false;
       for (int side = -1; side <= 1; side += 2) {
         const Lanes sine = mid + float(side) * shift;
         const Lanes cos_squared = 1.0f - square(mid_other) - sine * sine;
         if (lanes_largest(cos_squared) > 0.0f) {
           above_horizon = true;
           const Lanes c = 0.5f * (cosine + lanes_sqrt(lanes_max(cos_squared, lanes(0.0f))));
-          const Lanes power = weight * levels(p, c, film_ior, metal, per_nm).contrast;
-          sum += square(open) * (cos_squared > 0.0f ? power : lanes(0.0f));
+          const Lanes power = groups.weight[group] *
+                              levels(p, c, film_ior, metal, per_nm).contrast;
+          others += cos_squared > 0.0f ? power : lanes(0.0f);
         }
       }
-      left -= 2.0f * weight;
+      if (!above_horizon) {
+        /* Nor are those beyond. */
+        for (int beyond = group + 1; beyond < groups.count; beyond++) {
+          rest -= 2.0f * groups.weight[beyond];
+        }
+        rest -= groups.rest;
+        used[axis] = 0;
+      }
     }
-    if (above_horizon) {
-      sum += 4.0f * square(open) * larger(left, 0.0f);
+    if (lanes_largest(eta + others) + 4.0f * rest <= 1.0f) {
+      return eta;
     }
   }
-  return sum;
+  return lanes_max(lanes_min(eta, 1.0f - 4.0f * rest - others), lanes(0.0f));
 }
 
 /* How the orders of the axis with the longer component of q are summed. */
 enum class Orders {
+  /* Out of reach. */
+  None,
   /* One order for each node, where the lobes leave gaps in the spectrum. */
   Single,
   /* All orders at each node. */
@@ -272,6 +340,7 @@ struct Integrator {
   float q_first, q_second;
   Orders orders;
   bool mirror, dense_fringes;
+  MirrorBound bound;
 
   float wavelength_nm[lane_count], step_nm[lane_count], order[lane_count];
   int count;
@@ -288,7 +357,7 @@ struct Integrator {
   }
 
   /* Adds up the nodes gathered so far. */
-  ICW_DEVICE_METHOD void flush()
+  ICW_DEVICE_LARGE_METHOD void flush()
   {
     if (count == 0) {
       return;
@@ -354,8 +423,7 @@ struct Integrator {
       Lanes eta = ridge_part * r.ridge + groove_part * r.groove -
                   ridge_part * groove_part * r.contrast;
       if (lanes_largest(eta) > 1.0f - 4.0f * ridge_part * groove_part) {
-        const Lanes others = diffracted(p, pair, film_ior, metal, wavelength, per_nm);
-        eta = lanes_max(lanes_min(eta, 1.0f - others), lanes(0.0f));
+        eta = bounded_mirror(p, pair, bound, eta, film_ior, metal, per_nm);
       }
       f += lanes_gaussian(lanes(q_first), sigma) *
            (eta * zero_second + square(open_first) * r.contrast * others_second);
@@ -381,6 +449,9 @@ struct Integrator {
                                        const Lanes sigma,
                                        const Lanes per_nm) const
   {
+    if (orders == Orders::None) {
+      return lanes(0.0f);
+    }
     if (orders == Orders::All) {
       return all_orders(first, q_first, sigma, per_nm);
     }
@@ -407,10 +478,10 @@ struct Integrator {
  * whichever is narrower. Three quarters of the bandwidth of film and lamp, at which 0.1 % of the
  * amplitude is left, keep the integral within 0.2 %. */
 template<typename Tables>
-ICW_DEVICE Rgb physical_eval(const PhysicalParams &p,
-                             const LocalDirection i,
-                             const LocalDirection o,
-                             const Tables &tables)
+ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
+                                   const LocalDirection i,
+                                   const LocalDirection o,
+                                   const Tables &tables)
 {
   using namespace physical_detail;
   const Pair pair = {fabsf(i.nu + o.nu),
@@ -439,12 +510,16 @@ ICW_DEVICE Rgb physical_eval(const PhysicalParams &p,
                             {},
                             {},
                             {},
+                            {},
                             0,
                             {0.0f, 0.0f, 0.0f},
                             {0.0f, 0.0f, 0.0f}};
   const float q = sum.q_first;
   const float spacing_nm = sum.first.spacing_nm;
   sum.mirror = q < reach_0;
+  if (sum.mirror) {
+    sum.bound = mirror_bound(p);
+  }
 
   /* Orders whose lobes reach into the visible range. */
   const float reach = lobe_reach / 5.5f * reach_0;
@@ -519,8 +594,10 @@ ICW_DEVICE Rgb physical_eval(const PhysicalParams &p,
   else if (blurred_orders * sum.first.duty < 0.45f) {
     lobe_per_nm = smaller(slit_per_nm, 0.4f);
   }
-  if (sum.mirror) {
-    lobe_per_nm = smaller(lobe_per_nm, 0.8f);
+  const float order_1 = first_nm / spacing_nm;
+  if (q + lobe_reach * sqrtf(lobe_variance(p, first_nm, order_1)) < order_1) {
+    sum.orders = Orders::None;
+    lobe_per_nm = 0.0f;
   }
   const float step = step_nm(lobe_per_nm);
   for (float node = first_nm + 0.5f * step; node < last_nm; node += step) {

@@ -154,10 +154,10 @@ ICW_DEVICE int hump_count(const Comb &c)
 }
 
 /* `contrast[side][hump]`, side 1 for positive orders. */
-ICW_DEVICE Humps humps(const PhysicalParams &p,
-                       const Comb &c,
-                       const float contrast[2][2],
-                       const int first)
+ICW_DEVICE_LARGE Humps humps(const PhysicalParams &p,
+                             const Comb &c,
+                             const float contrast[2][2],
+                             const int first)
 {
   float order[lane_count], wavelength[lane_count], spread[lane_count], power[lane_count];
   const int count = hump_count(c);
@@ -238,11 +238,11 @@ ICW_DEVICE float row_sigma(const PhysicalParams &p,
 
 /* Density of v in a row m != 0 of orders (m, n), light of this wavelength, known to the part
  * `relative`. */
-ICW_DEVICE float row_density(const PhysicalParams &p,
-                             const Mixture &x,
-                             const float v,
-                             const float wavelength_nm,
-                             const float relative)
+ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
+                                   const Mixture &x,
+                                   const float v,
+                                   const float wavelength_nm,
+                                   const float relative)
 {
   if (!(p.along.spacing_nm > 0.0f)) {
     return logistic_density(v, x.sigma_0);
@@ -311,9 +311,9 @@ ICW_DEVICE RowWavelength row_wavelength(const PhysicalParams &p,
 
 /* Once for each view. */
 template<typename Tables>
-ICW_DEVICE PhysicalView physical_view(const PhysicalParams &p,
-                                      const LocalDirection o,
-                                      const Tables &tables)
+ICW_DEVICE_LARGE PhysicalView physical_view(const PhysicalParams &p,
+                                            const LocalDirection o,
+                                            const Tables &tables)
 {
   using namespace physical_detail;
   PhysicalView view = {};
@@ -374,10 +374,10 @@ ICW_DEVICE PhysicalView physical_view(const PhysicalParams &p,
 }
 
 /* Density of the sampled direction i over solid angle. */
-ICW_DEVICE float physical_pdf(const PhysicalParams &p,
-                              const PhysicalView &view,
-                              const LocalDirection o,
-                              const LocalDirection i)
+ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
+                                    const PhysicalView &view,
+                                    const LocalDirection o,
+                                    const LocalDirection i)
 {
   using namespace physical_detail;
   const Mixture x = mixture(p, view, o);
@@ -418,11 +418,11 @@ ICW_DEVICE float physical_pdf(const PhysicalParams &p,
 }
 
 /* A direction for the view o from two random numbers in [0, 1). i.n = 0 where there is none. */
-ICW_DEVICE LocalDirection physical_sample(const PhysicalParams &p,
-                                          const PhysicalView &view,
-                                          const LocalDirection o,
-                                          const float random_across,
-                                          const float random_along)
+ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
+                                                const PhysicalView &view,
+                                                const LocalDirection o,
+                                                const float random_across,
+                                                const float random_along)
 {
   using namespace physical_detail;
   const Mixture x = mixture(p, view, o);

@@ -10,7 +10,9 @@
 
 CCL_NAMESPACE_BEGIN
 
-/* Reads the scene's look-up table. */
+/* Reads the scene's look-up table. Unnamed, so that what is instantiated with it stays in its
+ * kernel: each is compiled for another instruction set. */
+namespace {
 struct IcWaferTableRead {
   KernelGlobals kg;
   int offset;
@@ -20,6 +22,7 @@ struct IcWaferTableRead {
     return kernel_data_fetch(lookup_table, offset + i);
   }
 };
+}  // namespace
 
 ccl_device_inline icwafer::MaterialTables<IcWaferTableRead> ic_wafer_tables(KernelGlobals kg)
 {
