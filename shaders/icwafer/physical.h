@@ -199,12 +199,12 @@ struct Pair {
 };
 
 /* Orders +-m of one axis in groups, wider and wider (1, 2, 3-4, 5-7, 8-11, ...): the middle of
- * each, and U^2 for one side of it. */
+ * each and how far it reaches on either side, and U^2 for one side of the axis. */
 constexpr int group_limit = 9;
 
 struct OrderGroups {
   int count;
-  float order[group_limit], weight[group_limit];
+  float order[group_limit], reach[group_limit], weight[group_limit];
   /* Twice U^2 of all orders beyond. */
   float rest;
 };
@@ -232,6 +232,7 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
       cosine = next;
     }
     groups.order[groups.count] = 0.5f * float(first + last);
+    groups.reach[groups.count] = 0.5f * float(last - first);
     groups.weight[groups.count] = square(open) * larger(weight, 0.0f);
     left -= 2.0f * weight;
     first = last + 1;
@@ -254,6 +255,22 @@ ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p)
           order_groups(p.along, 1.0f - p.across.duty),
           cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
                   0.0f};
+}
+
+/* The most that the contrast can be within a group of orders, from what it is at the group's
+ * middle. With thickness h of the film, 4 pi h / lambda bounds how much its phase changes an
+ * amplitude per unit of the cosine (Airy's resonances are narrower at grazing angles, but the
+ * phase is slower there by the same factor); 8 was found to cover Fresnel's amplitudes. The
+ * cosine is the mean of two, one of which is the same for all orders. */
+ICW_DEVICE Lanes largest_contrast(const PhysicalParams &p,
+                                  const Lanes contrast,
+                                  const Lanes cosine_range,
+                                  const Lanes per_nm)
+{
+  const Lanes slope = (4.0f * pi * (p.oxide_nm + p.groove_nm)) * per_nm + 8.0f;
+  const Lanes amplitude = lanes_min(lanes_sqrt(contrast) + 0.5f * cosine_range * slope,
+                                    lanes(2.0f));
+  return amplitude * amplitude;
 }
 
 /* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
@@ -287,18 +304,29 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
       const float spacing_nm = axis == 0 ? p.across.spacing_nm : p.along.spacing_nm;
       const float mid = axis == 0 ? pair.mid_nu : pair.mid_tau;
       const float mid_other = axis == 0 ? pair.mid_tau : pair.mid_nu;
-      const Lanes shift = groups.order[group] / (spacing_nm * per_nm);
+      const Lanes per_order = 1.0f / (spacing_nm * per_nm);
       rest -= 2.0f * groups.weight[group];
       bool above_horizon = false;
       for (int side = -1; side <= 1; side += 2) {
-        const Lanes sine = mid + float(side) * shift;
-        const Lanes cos_squared = 1.0f - square(mid_other) - sine * sine;
-        if (lanes_largest(cos_squared) > 0.0f) {
+        /* 0 below the horizon. */
+        const auto cosine_of = [&](const float order) {
+          const Lanes sine = mid + float(side) * order * per_order;
+          return lanes_sqrt(
+              lanes_max(1.0f - square(mid_other) - sine * sine, lanes(0.0f)));
+        };
+        const float order = groups.order[group], reach = groups.reach[group];
+        const Lanes near = cosine_of(order - reach), far = cosine_of(order + reach);
+        const Lanes highest = lanes_max(near, far);
+        if (lanes_largest(highest) > 0.0f) {
           above_horizon = true;
-          const Lanes c = 0.5f * (cosine + lanes_sqrt(lanes_max(cos_squared, lanes(0.0f))));
-          const Lanes power = groups.weight[group] *
-                              levels(p, c, film_ior, metal, per_nm).contrast;
-          others += cos_squared > 0.0f ? power : lanes(0.0f);
+          const Lanes middle = cosine_of(order);
+          Lanes contrast =
+              levels(p, 0.5f * (cosine + middle), film_ior, metal, per_nm).contrast;
+          if (reach > 0.0f) {
+            const Lanes range = lanes_max(highest - middle, middle - lanes_min(near, far));
+            contrast = largest_contrast(p, contrast, range, per_nm);
+          }
+          others += highest > 0.0f ? groups.weight[group] * contrast : lanes(0.0f);
         }
       }
       if (!above_horizon) {
