@@ -205,7 +205,7 @@ struct Mixture {
   /* Both sides alike: for orders along the wires the mirror's. */
   float along_contrast[2][2];
   /* The part of the other axis that is open: the factor of an axis' own orders, and what the
-   * orders (m, n) of one m add up to. */
+   * orders (m, n) of one m add up to. That of the wires along is divided by, so never 0. */
   float open_across, open_along;
   float sigma_0;
 };
@@ -222,7 +222,7 @@ ICW_DEVICE Mixture mixture(const PhysicalParams &p,
     x.along_contrast[1][hump] = view.mirror_contrast[hump];
   }
   x.open_across = 1.0f - p.across.duty;
-  x.open_along = p.along.spacing_nm > 0.0f ? 1.0f - p.along.duty : 1.0f;
+  x.open_along = p.along.spacing_nm > 0.0f ? larger(1.0f - p.along.duty, 1e-6f) : 1.0f;
   x.sigma_0 = sqrtf(lobe_variance(p, mean_nm, 0.0f));
   return x;
 }
