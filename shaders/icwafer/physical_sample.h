@@ -43,7 +43,7 @@ constexpr float tail_begin = 5.0f;
 /* Fits a Gaussian's body best. */
 constexpr float logistic_per_sigma = 0.59f;
 
-ICW_DEVICE Lanes logistic_density(const Lanes x, const Lanes scale)
+ICW_DEVICE Lanes logistic_lobes(const Lanes x, const Lanes scale)
 {
   const Lanes t = x / scale;
   const Lanes e = lanes_exp2(lanes_max(-1.44269504f * lanes_max(t, -t), lanes(-60.0f)));
@@ -389,7 +389,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   float rows = 0.0f;
   for (int first = 0; first < hump_count(x.across); first += lane_count) {
     const Humps lobes = humps(p, x.across, view.contrast, first);
-    const Lanes density = lobes.power * logistic_density(u - lobes.mean, lobes.scale);
+    const Lanes density = lobes.power * logistic_lobes(u - lobes.mean, lobes.scale);
     if (!cross) {
       rows += lanes_sum(density);
       continue;
@@ -410,7 +410,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
     float along = tail_density(x.along, v) * mean_contrast(x.along_contrast);
     for (int first = 0; first < hump_count(x.along); first += lane_count) {
       const Humps lobes = humps(p, x.along, x.along_contrast, first);
-      along += lanes_sum(lobes.power * logistic_density(v - lobes.mean, lobes.scale));
+      along += lanes_sum(lobes.power * logistic_lobes(v - lobes.mean, lobes.scale));
     }
     sum += square(x.open_across) * along * mirror_u;
   }
