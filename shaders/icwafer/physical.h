@@ -22,6 +22,7 @@
  * and a lobe's width comes from the coherence width W, the roughness and the spread of the
  * spacing: sigma_m^2 = (0.376 lambda / W)^2 + sigma_rough^2 + (variation m lambda / d)^2 (0.376
  * turns the full width at half maximum 0.886 lambda / W of an aperture W wide into a Gaussian's).
+ * Along the wires W is the length over which they run on undisturbed.
  *
  * Energy. At one cosine, Parseval's theorem gives sum eta = F |r_ridge|^2 + (1 - F) |r_groove|^2
  * <= 1. As each order has its own cosine, the sum may pass 1. The orders other than (0, 0) never
@@ -48,9 +49,8 @@ struct PhysicalParams {
   /* Wires, and those that cross them. */
   Lattice across, along;
   float oxide_nm, groove_nm;
-  /* Standard deviation of a lobe in u from coherence, per nanometre of wavelength; from
-   * roughness; relative spread of the spacing. */
-  float coherence_per_nm, roughness, variation;
+  /* Standard deviation of a lobe from roughness; relative spread of the spacing. */
+  float roughness, variation;
   Cauchy oxide;
   /* Index of metal_custom in red, green and blue light. */
   float custom_n[3], custom_k[3];
@@ -71,14 +71,18 @@ ICW_DEVICE float physical_roughness_sigma(const float roughness)
   return 1.4142136f * square(clamped(roughness, 0.0f, 0.6f));
 }
 
-/* A lattice of wires; none where the spacing is not positive. */
-ICW_DEVICE Lattice physical_lattice(const float spacing_nm, const float width_nm)
+/* A lattice of wires; none where the spacing is not positive. `coherence_width_um` is along its
+ * own axis. */
+ICW_DEVICE Lattice physical_lattice(const float spacing_nm,
+                                    const float width_nm,
+                                    const float coherence_width_um)
 {
-  if (!(spacing_nm > 0.0f)) {
-    return {0.0f, 0.0f};
+  const float coherence_per_nm = physical_coherence_per_nm(coherence_width_um);
+  if (!(spacing_nm > 0.0f) || !(width_nm > 0.0f)) {
+    return {0.0f, 0.0f, coherence_per_nm};
   }
   const float spacing = clamped(spacing_nm, 50.0f, 1e6f);
-  return {spacing, clamped(width_nm / spacing, 0.0f, 1.0f)};
+  return {spacing, clamped(width_nm / spacing, 0.0f, 1.0f), coherence_per_nm};
 }
 
 /* A component of the index of metal_custom, kept to what can be divided by. */
@@ -93,7 +97,6 @@ ICW_DEVICE PhysicalParams physical_params(const Lattice across,
                                           const Lattice along,
                                           const float oxide_nm,
                                           const float groove_nm,
-                                          const float coherence_width_um,
                                           const float roughness,
                                           const float variation,
                                           const Oxide oxide,
@@ -102,12 +105,14 @@ ICW_DEVICE PhysicalParams physical_params(const Lattice across,
                                           const Illuminant illuminant)
 {
   PhysicalParams p = {};
-  /* Wires of width 0 are no wires: a mirror under oxide. */
-  p.across = across.spacing_nm > 0.0f ? across : Lattice{1000.0f, 0.0f};
-  p.along = along.duty > 0.0f ? along : Lattice{0.0f, 0.0f};
+  p.across = across;
+  if (!(across.spacing_nm > 0.0f)) {
+    /* Wires of no width: a mirror under oxide. */
+    p.across.spacing_nm = 1000.0f;
+  }
+  p.along = along;
   p.oxide_nm = clamped(oxide_nm, 0.0f, 1e4f);
   p.groove_nm = clamped(groove_nm, 0.0f, 1e4f);
-  p.coherence_per_nm = physical_coherence_per_nm(coherence_width_um);
   p.roughness = physical_roughness_sigma(roughness);
   p.variation = clamped(variation, 0.0f, 0.3f);
   p.oxide = oxide_series(oxide, clamped(custom_oxide_ior, 1.0f, 5.0f));
@@ -143,24 +148,29 @@ constexpr float blue_nm = 420.0f;
  * off. */
 constexpr float gaussian_bandwidth = 3.8f;
 constexpr float lobe_reach = 4.5f;
+constexpr float mirror_reach = 5.5f;
 /* More orders than this are not summed one by one. */
 constexpr int window_limit = 24;
 
-/* Variance of the lobe around order * lambda / d in u. `shift` is order * lambda / d. */
+/* Variance of the lobe around order * lambda / d along the lattice's axis. `shift` is
+ * order * lambda / d. */
 template<typename Real>
-ICW_DEVICE Real lobe_variance(const PhysicalParams &p, const Real wavelength_nm, const Real shift)
+ICW_DEVICE Real lobe_variance(const PhysicalParams &p,
+                              const Lattice &lattice,
+                              const Real wavelength_nm,
+                              const Real shift)
 {
-  const Real coherence = p.coherence_per_nm * wavelength_nm;
+  const Real coherence = lattice.coherence_per_nm * wavelength_nm;
   const Real spread = p.variation * shift;
   return coherence * coherence + square(p.roughness) + spread * spread;
 }
 
 }  // namespace physical_detail
 
-/* Variance of the mirror lobe in u at a mean wavelength. */
-ICW_DEVICE float physical_lobe_variance(const PhysicalParams &p)
+/* Variance of the mirror lobe along an axis at a mean wavelength. */
+ICW_DEVICE float physical_lobe_variance(const PhysicalParams &p, const Lattice &axis)
 {
-  return physical_detail::lobe_variance(p, 550.0f, 0.0f);
+  return physical_detail::lobe_variance(p, axis, 550.0f, 0.0f);
 }
 
 namespace physical_detail {
@@ -311,8 +321,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
         /* 0 below the horizon. */
         const auto cosine_of = [&](const float order) {
           const Lanes sine = mid + float(side) * order * per_order;
-          return lanes_sqrt(
-              lanes_max(1.0f - square(mid_other) - sine * sine, lanes(0.0f)));
+          return lanes_sqrt(lanes_max(1.0f - square(mid_other) - sine * sine, lanes(0.0f)));
         };
         const float order = groups.order[group], reach = groups.reach[group];
         const Lanes near = cosine_of(order - reach), far = cosine_of(order + reach);
@@ -320,8 +329,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
         if (lanes_largest(highest) > 0.0f) {
           above_horizon = true;
           const Lanes middle = cosine_of(order);
-          Lanes contrast =
-              levels(p, 0.5f * (cosine + middle), film_ior, metal, per_nm).contrast;
+          Lanes contrast = levels(p, 0.5f * (cosine + middle), film_ior, metal, per_nm).contrast;
           if (reach > 0.0f) {
             const Lanes range = lanes_max(highest - middle, middle - lanes_min(near, far));
             contrast = largest_contrast(p, contrast, range, per_nm);
@@ -345,7 +353,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
   return lanes_max(lanes_min(eta, 1.0f - 4.0f * rest - others), lanes(0.0f));
 }
 
-/* How the orders of the axis with the longer component of q are summed. */
+/* How the orders of the axis that tells the wavelength best are summed. */
 enum class Orders {
   /* Out of reach. */
   None,
@@ -363,7 +371,7 @@ struct Integrator {
   const PhysicalParams &p;
   const Pair &pair;
   const Tables &tables;
-  /* The axis along which q is longer comes first. */
+  /* The axis that tells the wavelength best comes first. */
   Lattice first, second;
   float q_first, q_second;
   Orders orders;
@@ -437,12 +445,13 @@ struct Integrator {
     const Lanes per_nm = 1.0f / wavelength;
     const Lanes film_ior = cauchy_index(p.oxide, per_nm);
     const FilmPair<Lanes> r = levels(p, lanes(pair.cosine), film_ior, metal, per_nm);
-    const Lanes sigma = lanes_sqrt(lobe_variance(p, wavelength, lanes(0.0f)));
-    const Lanes zero_second = lanes_gaussian(lanes(q_second), sigma);
+    const Lanes sigma_first = lanes_sqrt(lobe_variance(p, first, wavelength, lanes(0.0f)));
+    const Lanes sigma_second = lanes_sqrt(lobe_variance(p, second, wavelength, lanes(0.0f)));
+    const Lanes zero_second = lanes_gaussian(lanes(q_second), sigma_second);
     const float open_first = first.spacing_nm > 0.0f ? 1.0f - first.duty : 1.0f;
     const float open_second = second.spacing_nm > 0.0f ? 1.0f - second.duty : 1.0f;
-    const Lanes others_second = all_orders(second, q_second, sigma, per_nm);
-    const Lanes others_first = first_orders(wavelength, node_order, sigma, per_nm);
+    const Lanes others_second = all_orders(second, q_second, sigma_second, per_nm);
+    const Lanes others_first = first_orders(wavelength, node_order, sigma_first, per_nm);
 
     Lanes f = r.contrast * others_first * (square(open_second) * zero_second + others_second);
     if (mirror) {
@@ -453,7 +462,7 @@ struct Integrator {
       if (lanes_largest(eta) > 1.0f - 4.0f * ridge_part * groove_part) {
         eta = bounded_mirror(p, pair, bound, eta, film_ior, metal, per_nm);
       }
-      f += lanes_gaussian(lanes(q_first), sigma) *
+      f += lanes_gaussian(lanes(q_first), sigma_first) *
            (eta * zero_second + square(open_first) * r.contrast * others_second);
     }
     return f;
@@ -490,8 +499,9 @@ struct Integrator {
     }
     const Lanes shift = node_order * wavelength / first.spacing_nm;
     const Lanes amplitude = order_amplitude(node_order, lanes(first.duty));
-    const Lanes sigma_m = p.variation > 0.0f ? lanes_sqrt(lobe_variance(p, wavelength, shift)) :
-                                               sigma;
+    const Lanes sigma_m = p.variation > 0.0f ?
+                              lanes_sqrt(lobe_variance(p, first, wavelength, shift)) :
+                              sigma;
     return amplitude * amplitude * lanes_gaussian(q_first - shift, sigma_m);
   }
 };
@@ -520,11 +530,14 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
 
   /* Most pairs of directions have nothing to do with each other. */
   const bool cross = p.along.spacing_nm > 0.0f;
-  const float reach_0 = 5.5f * sqrtf(lobe_variance(p, last_nm, 0.0f));
-  if (pair.v > reach_0 && !cross) {
+  const float sigma_u = sqrtf(lobe_variance(p, p.across, last_nm, 0.0f));
+  const float sigma_v = sqrtf(lobe_variance(p, p.along, last_nm, 0.0f));
+  const bool near_u = pair.u < mirror_reach * sigma_u, near_v = pair.v < mirror_reach * sigma_v;
+  if (!near_v && !cross) {
     return {0.0f, 0.0f, 0.0f};
   }
-  const bool swap = cross && pair.v > pair.u;
+  /* An order's light at q has a spread of wavelengths in proportion to sigma / q. */
+  const bool swap = cross && !near_v && (near_u || pair.v * sigma_u > pair.u * sigma_v);
   Integrator<Tables> sum = {p,
                             pair,
                             tables,
@@ -544,13 +557,13 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
                             {0.0f, 0.0f, 0.0f}};
   const float q = sum.q_first;
   const float spacing_nm = sum.first.spacing_nm;
-  sum.mirror = q < reach_0;
+  sum.mirror = near_u && near_v;
   if (sum.mirror) {
     sum.bound = mirror_bound(p);
   }
 
   /* Orders whose lobes reach into the visible range. */
-  const float reach = lobe_reach / 5.5f * reach_0;
+  const float reach = lobe_reach * (swap ? sigma_v : sigma_u);
   const float reach_spread = lobe_reach * p.variation;
   const int order_first = int(
       ceilf(larger((q - reach) / (1.0f + reach_spread) * spacing_nm / last_nm, 1.0f)));
@@ -567,12 +580,13 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
 
   /* The lobes' widths in wavelength, and in orders. */
   const auto sigma_nm = [&](const float wavelength_nm) {
-    return wavelength_nm / larger(q, 1e-6f) * sqrtf(lobe_variance(p, wavelength_nm, q));
+    return wavelength_nm / larger(q, 1e-6f) * sqrtf(lobe_variance(p, sum.first, wavelength_nm, q));
   };
   const auto step_nm = [&](const float lobe_per_nm) {
     return two_pi / (larger(lobe_per_nm, 0.75f * lamp_per_nm) + 0.75f * film_per_nm);
   };
-  const float blurred_orders = sqrtf(lobe_variance(p, first_nm, q)) * spacing_nm / last_nm;
+  const float blurred_orders = sqrtf(lobe_variance(p, sum.first, first_nm, q)) * spacing_nm /
+                               last_nm;
 
   /* One order after the other. */
   if (!sum.mirror && order_most - float(order_first) < float(window_limit)) {
@@ -623,7 +637,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
     lobe_per_nm = smaller(slit_per_nm, 0.4f);
   }
   const float order_1 = first_nm / spacing_nm;
-  if (q + lobe_reach * sqrtf(lobe_variance(p, first_nm, order_1)) < order_1) {
+  if (q + lobe_reach * sqrtf(lobe_variance(p, sum.first, first_nm, order_1)) < order_1) {
     sum.orders = Orders::None;
     lobe_per_nm = 0.0f;
   }

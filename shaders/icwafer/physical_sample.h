@@ -178,7 +178,7 @@ ICW_DEVICE_LARGE Humps humps(const PhysicalParams &p,
   lobes.mean = nm * per_nm;
   const Lanes spread_nm = load_lanes(spread) * per_nm;
   lobes.scale = logistic_per_sigma *
-                lanes_sqrt(lobe_variance(p, nm, lobes.mean) + spread_nm * spread_nm);
+                lanes_sqrt(lobe_variance(p, c.lattice, nm, lobes.mean) + spread_nm * spread_nm);
   const Lanes amplitude = order_amplitude(lobes.order, lanes(c.lattice.duty));
   lobes.power = load_lanes(power) * amplitude * amplitude;
   return lobes;
@@ -207,7 +207,8 @@ struct Mixture {
   /* The part of the other axis that is open: the factor of an axis' own orders, and what the
    * orders (m, n) of one m add up to. That of the wires along is divided by, so never 0. */
   float open_across, open_along;
-  float sigma_0;
+  /* Standard deviations of the mirror lobe. */
+  float sigma_u, sigma_v;
 };
 
 ICW_DEVICE Mixture mixture(const PhysicalParams &p,
@@ -223,7 +224,8 @@ ICW_DEVICE Mixture mixture(const PhysicalParams &p,
   }
   x.open_across = 1.0f - p.across.duty;
   x.open_along = p.along.spacing_nm > 0.0f ? larger(1.0f - p.along.duty, 1e-6f) : 1.0f;
-  x.sigma_0 = sqrtf(lobe_variance(p, mean_nm, 0.0f));
+  x.sigma_u = sqrtf(physical_lobe_variance(p, p.across));
+  x.sigma_v = sqrtf(physical_lobe_variance(p, p.along));
   return x;
 }
 
@@ -233,7 +235,7 @@ ICW_DEVICE float row_sigma(const PhysicalParams &p,
                            const float shift,
                            const float relative)
 {
-  return sqrtf(lobe_variance(p, wavelength_nm, shift) + square(relative * shift));
+  return sqrtf(lobe_variance(p, p.along, wavelength_nm, shift) + square(relative * shift));
 }
 
 /* Density of v in a row m != 0 of orders (m, n), light of this wavelength, known to the part
@@ -245,9 +247,9 @@ ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
                                    const float relative)
 {
   if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_density(v, x.sigma_0);
+    return logistic_density(v, x.sigma_v);
   }
-  float sum = x.open_along * logistic_density(v, x.sigma_0);
+  float sum = x.open_along * logistic_density(v, x.sigma_v);
   float left = p.along.duty;
   const float per_order = wavelength_nm / p.along.spacing_nm;
   for (int n = 1; n <= order_limit; n++) {
@@ -269,11 +271,11 @@ ICW_DEVICE float row_point(const PhysicalParams &p,
                            const float relative)
 {
   if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_point(random, x.sigma_0);
+    return logistic_point(random, x.sigma_v);
   }
   float left = random - x.open_along;
   if (left < 0.0f) {
-    return logistic_point(random / x.open_along, x.sigma_0);
+    return logistic_point(random / x.open_along, x.sigma_v);
   }
   const float per_order = wavelength_nm / p.along.spacing_nm;
   float rest = p.along.duty;
@@ -304,7 +306,7 @@ ICW_DEVICE RowWavelength row_wavelength(const PhysicalParams &p,
                                         const float order)
 {
   const float nm = clamped(u * p.across.spacing_nm / order, shortest_nm, 700.0f);
-  return {nm, x.sigma_0 * p.across.spacing_nm / (fabsf(order) * nm)};
+  return {nm, x.sigma_u * p.across.spacing_nm / (fabsf(order) * nm)};
 }
 
 }  // namespace physical_detail
@@ -383,8 +385,8 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   const Mixture x = mixture(p, view, o);
   const float u = i.nu + o.nu, v = i.tau + o.tau;
   const bool cross = p.along.spacing_nm > 0.0f;
-  const float mirror_u = logistic_density(u, x.sigma_0);
-  float sum = view.mirror_power * mirror_u * logistic_density(v, x.sigma_0);
+  const float mirror_u = logistic_density(u, x.sigma_u);
+  float sum = view.mirror_power * mirror_u * logistic_density(v, x.sigma_v);
 
   float rows = 0.0f;
   for (int first = 0; first < hump_count(x.across); first += lane_count) {
@@ -403,7 +405,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   }
   const float tail = tail_density(x.across, u) * mean_contrast(view.contrast);
   if (!cross) {
-    sum += (rows + tail) * logistic_density(v, x.sigma_0);
+    sum += (rows + tail) * logistic_density(v, x.sigma_v);
   }
   else {
     sum += x.open_along * (rows + tail * row_density(p, x, v, mean_nm, 0.2f));
@@ -435,8 +437,8 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
                            mean_contrast(x.along_contrast);
   bool found = false;
   if (left < view.mirror_power) {
-    u = logistic_point(left / view.mirror_power, x.sigma_0);
-    v = logistic_point(random_along, x.sigma_0);
+    u = logistic_point(left / view.mirror_power, x.sigma_u);
+    v = logistic_point(random_along, x.sigma_v);
     found = true;
   }
   left -= view.mirror_power;
@@ -448,7 +450,7 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
   left -= across_tail;
   if (!found && left < along_tail) {
     v = tail_point(x.along, left / along_tail);
-    u = logistic_point(random_along, x.sigma_0);
+    u = logistic_point(random_along, x.sigma_u);
     found = true;
   }
   left -= along_tail;
@@ -470,7 +472,7 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
           }
           else {
             v = q;
-            u = logistic_point(random_along, x.sigma_0);
+            u = logistic_point(random_along, x.sigma_u);
           }
           found = true;
         }

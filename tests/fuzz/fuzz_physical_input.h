@@ -31,21 +31,22 @@ inline PhysicalParams physical_input(Input &input)
   const float oxide_nm = input.socket(0.0f, 5000.0f);
   const float groove_nm = input.socket(0.0f, 2000.0f);
   const float coherence_width_um = input.socket(1.0f, 200.0f);
+  const float wire_length_um = input.socket(1.0f, 200.0f);
   const float roughness = input.socket(0.0f, 0.6f);
   const float variation = input.flag() ? input.socket(0.0f, 0.3f) : 0.0f;
   const Oxide oxide = Oxide(input.choice(oxide_custom + 1));
   const float ior = input.socket(1.0f, 3.0f);
-  PhysicalParams p = physical_params(physical_lattice(spacing_nm, width_nm),
-                                     physical_lattice(cross_spacing_nm, cross_width_nm),
-                                     oxide_nm,
-                                     groove_nm,
-                                     coherence_width_um,
-                                     roughness,
-                                     variation,
-                                     oxide,
-                                     ior,
-                                     Metal(input.choice(metal_custom + 1)),
-                                     Illuminant(input.choice(illuminant_count)));
+  PhysicalParams p = physical_params(
+      physical_lattice(spacing_nm, width_nm, coherence_width_um),
+      physical_lattice(cross_spacing_nm, cross_width_nm, wire_length_um),
+      oxide_nm,
+      groove_nm,
+      roughness,
+      variation,
+      oxide,
+      ior,
+      Metal(input.choice(metal_custom + 1)),
+      Illuminant(input.choice(illuminant_count)));
   if (p.metal == metal_custom) {
     float index[6];
     for (float &component : index) {

@@ -201,13 +201,14 @@ class PhysicalSurface : public Surface {
 
   Bins bins(const LocalDirection o) const override
   {
-    const double sigma = std::sqrt(physical_lobe_variance(p_));
+    const double sigma = std::sqrt(physical_lobe_variance(p_, p_.across));
+    const double sigma_v = std::sqrt(physical_lobe_variance(p_, p_.along));
     if (p_.along.spacing_nm > 0.0f) {
-      return {even_edges(std::min(0.5 * sigma, 0.05)), even_edges(std::min(0.5 * sigma, 0.05))};
+      return {even_edges(std::min(0.5 * sigma, 0.05)), even_edges(std::min(0.5 * sigma_v, 0.05))};
     }
     std::vector<double> distances = {0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 13.0};
     for (double &distance : distances) {
-      distance *= sigma;
+      distance *= sigma_v;
     }
     return {even_edges(std::min(sigma / 3.0, 0.05)), edges_around(-o.tau, distances)};
   }
@@ -218,7 +219,8 @@ class PhysicalSurface : public Surface {
     text << "spacing " << p_.across.spacing_nm << " nm, duty " << p_.across.duty << ", across "
          << p_.along.spacing_nm << " nm, duty " << p_.along.duty << ", oxide " << p_.oxide_nm
          << " nm of index " << p_.oxide.a << ", groove " << p_.groove_nm << " nm, coherence "
-         << 0.376e-3f / p_.coherence_per_nm << " um, roughness sigma " << p_.roughness
+         << 0.376e-3f / p_.across.coherence_per_nm << " by "
+         << 0.376e-3f / p_.along.coherence_per_nm << " um, roughness sigma " << p_.roughness
          << ", variation " << p_.variation << ", metal " << p_.metal << " (n " << p_.custom_n[1]
          << ", k " << p_.custom_k[1] << "), illuminant " << p_.illuminant;
     return text.str();
@@ -236,13 +238,15 @@ template<typename Number> PhysicalParams physical_params_of(Random &random, cons
   const bool cross = random() % 3 == 0;
   const float cross_nm = cross ? number(200.0f, 200000.0f) : 0.0f;
   const Metal metal = Metal(random() % (metal_custom + 1));
+  /* The chi-squared test has bins for both axes if wires cross; they cannot be very fine. */
+  const float coherence_most_um = cross ? 20.0f : 100.0f;
   PhysicalParams p = physical_params(
-      physical_lattice(spacing_nm, spacing_nm * number(0.02f, 0.98f)),
-      physical_lattice(cross_nm, cross_nm * number(0.02f, 0.98f)),
+      physical_lattice(
+          spacing_nm, spacing_nm * number(0.02f, 0.98f), number(2.0f, coherence_most_um)),
+      physical_lattice(
+          cross_nm, cross_nm * number(0.02f, 0.98f), number(0.5f, coherence_most_um)),
       number(1.0f, 2000.0f),
       number(10.0f, 1500.0f),
-      /* The chi-squared test has bins for both axes if wires cross; they cannot be very fine. */
-      number(2.0f, cross ? 20.0f : 100.0f),
       random() % 2 ? number(0.01f, 0.6f) : 0.0f,
       random() % 2 ? number(0.005f, 0.2f) : 0.0f,
       Oxide(random() % (oxide_custom + 1)),

@@ -78,12 +78,12 @@ int main(int argc, char **argv)
     }
     const float rho = std::sqrt(1 - o.n * o.n);
     if (mode >= 4) {
-      if (random() % 4) p.along = {0.0f, 0.0f};
+      if (random() % 4) p.along = {0.0f, 0.0f, p.along.coherence_per_nm};
       p.across.spacing_nm = log_uniform(random, 300.f, 5000.f);
       p.groove_nm = mode == 5 ? log_uniform(random, 50.f, 600.f) : p.groove_nm;
       p.oxide_nm = mode == 5 ? uniform(random, 0.f, 1000.f) : p.oxide_nm;
       if (random() % 2) p.roughness = physical_roughness_sigma(log_uniform(random, .1f, .6f));
-      else p.coherence_per_nm = physical_coherence_per_nm(log_uniform(random, .5f, 3.f));
+      else p.across.coherence_per_nm = p.along.coherence_per_nm = physical_coherence_per_nm(log_uniform(random, .5f, 3.f));
     }
     if (mode == 3 || (mode > 3 && random() % 3 == 0)) {  // grazing
       const float c = uniform(random, 0.001f, 0.2f), ph = uniform(random, 0, two_pi);
