@@ -40,6 +40,8 @@ constexpr float shortest_nm = 400.0f;
 constexpr float mean_nm = 550.0f;
 /* Where the tail begins, in orders: the blue of the first order beyond the limit. */
 constexpr float tail_begin = 5.0f;
+/* A tail that ends before this is left out. */
+constexpr float tail_least = 6.5f;
 /* Fits a Gaussian's body best. */
 constexpr float logistic_per_sigma = 0.59f;
 
@@ -88,11 +90,13 @@ ICW_DEVICE Comb comb(const Lattice lattice, const float view)
   c.positive = int(smaller((1.0f + view) * per_order, float(order_limit)));
   c.tail_negative = larger((1.0f - view) * lattice.spacing_nm / mean_nm, tail_begin);
   c.tail_positive = larger((1.0f + view) * lattice.spacing_nm / mean_nm, tail_begin);
-  float power = 0.5f * lattice.duty * (1.0f - lattice.duty);
-  for (int m = 1; m <= order_limit; m++) {
-    power -= square(sinf(pi * float(m) * lattice.duty) / (pi * float(m)));
+  if (larger(c.tail_negative, c.tail_positive) > tail_least) {
+    float power = 0.5f * lattice.duty * (1.0f - lattice.duty);
+    for (int m = 1; m <= order_limit; m++) {
+      power -= square(sinf(pi * float(m) * lattice.duty) / (pi * float(m)));
+    }
+    c.tail_power = larger(power, 0.0f);
   }
-  c.tail_power = larger(power, 0.0f);
   return c;
 }
 
@@ -105,7 +109,7 @@ ICW_DEVICE float tail_scale(const Comb &c)
 /* Tails on the negative and the positive side; a side that ends before it begins has none. */
 ICW_DEVICE float tail_share(const Comb &c, const bool positive)
 {
-  return (positive ? c.tail_positive : c.tail_negative) > 1.3f * tail_begin ? c.tail_power : 0.0f;
+  return (positive ? c.tail_positive : c.tail_negative) > tail_least ? c.tail_power : 0.0f;
 }
 
 ICW_DEVICE float tail_total(const Comb &c)
@@ -159,28 +163,34 @@ ICW_DEVICE_LARGE Humps humps(const PhysicalParams &p,
                              const float contrast[2][2],
                              const int first)
 {
-  float order[lane_count], wavelength[lane_count], spread[lane_count], power[lane_count];
-  const int count = hump_count(c);
+  /* Lanes: order -1 at both humps, -2, ..., then 1, 2, ... */
+  float numbers[lane_count];
   for (int lane = 0; lane < lane_count; lane++) {
-    const int index = first + lane;
-    const int position = index / 2, hump = index % 2;
-    const bool positive = position >= c.negative;
-    const IlluminantHump h = illuminant_hump(p.illuminant, hump);
-    order[lane] = float(positive ? position - c.negative + 1 : -1 - position);
-    wavelength[lane] = h.mean_nm;
-    spread[lane] = h.sigma_nm;
-    power[lane] = index < count ? h.weight * contrast[positive ? 1 : 0][hump] : 0.0f;
+    numbers[lane] = float(first + lane);
   }
+  const Lanes number = load_lanes(numbers);
+  const Lanes position = lanes_round(0.5f * number - 0.25f);
+  const Lanes second = number - 2.0f * position;
+  const float negative = float(c.negative);
+  const IlluminantHump blue = illuminant_hump(p.illuminant, 0),
+                       red = illuminant_hump(p.illuminant, 1);
+  const auto hump = [&](const float at_blue, const float at_red) {
+    return second > 0.5f ? lanes(at_red) : lanes(at_blue);
+  };
+
   Humps lobes;
-  lobes.order = load_lanes(order);
-  const Lanes nm = load_lanes(wavelength);
+  lobes.order = position < negative ? -1.0f - position : position - negative + 1.0f;
+  const Lanes nm = hump(blue.mean_nm, red.mean_nm);
+  const Lanes power = position < negative ?
+                          hump(blue.weight * contrast[0][0], red.weight * contrast[0][1]) :
+                          hump(blue.weight * contrast[1][0], red.weight * contrast[1][1]);
   const Lanes per_nm = lobes.order / c.lattice.spacing_nm;
   lobes.mean = nm * per_nm;
-  const Lanes spread_nm = load_lanes(spread) * per_nm;
+  const Lanes spread_nm = hump(blue.sigma_nm, red.sigma_nm) * per_nm;
   lobes.scale = logistic_per_sigma *
                 lanes_sqrt(lobe_variance(p, c.lattice, nm, lobes.mean) + spread_nm * spread_nm);
   const Lanes amplitude = order_amplitude(lobes.order, lanes(c.lattice.duty));
-  lobes.power = load_lanes(power) * amplitude * amplitude;
+  lobes.power = number < float(hump_count(c)) ? power * amplitude * amplitude : lanes(0.0f);
   return lobes;
 }
 

@@ -16,7 +16,7 @@ _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
 #: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and
-#: draws chips and wafers, "test" are the tests that start Blender.
+#: draws chips and wafers, "import" reads real chips, "test" are the tests that start Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -51,6 +51,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "opencollada-dev",
     ),
     "layout": ("python3-matplotlib",),
+    "import": ("klayout",),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }
 
