@@ -25,7 +25,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(REPOSITORY / "scripts" / "python"), str(REPOSITORY / "plugin")]
 
 import host_edits  # noqa: E402
-from icwafer import layout  # noqa: E402
+from icwafer import paths  # noqa: E402
 
 SHADE_SURFACE = Path(__file__).with_name("shade_surface.cu")
 ALL_KERNELS = Path("kernel/device/cuda/kernel.cu")
@@ -52,7 +52,7 @@ def nvcc() -> str | None:
 
 def copy_host(tree: Path, to: Path) -> None:
     """Copies of a host's tree what Cycles' kernels and host_edits need, edited or not."""
-    names = {host_edits.VERSION_HEADER, *host_edits.load_edits(layout.HOST).edits}
+    names = {host_edits.VERSION_HEADER, *host_edits.load_edits(paths.HOST).edits}
     manifest = tree / host_edits.STATE_FOLDER / "manifest.json"
     if manifest.exists():
         names |= json.loads(manifest.read_text())["files"].keys()
@@ -106,7 +106,7 @@ def measure(source: Path) -> tuple[dict[str, Usage], dict[str, Usage]]:
         results = []
         for change in (host_edits.revert, host_edits.apply):
             tree = Path(folder) / change.__name__
-            copy_host(layout.host_source(), tree)
+            copy_host(paths.host_source(), tree)
             change(tree)
             results.append(usages(compile_kernels(tree, source, Path(folder) / "kernels.cubin")))
     return results[0], results[1]
@@ -145,7 +145,7 @@ def main() -> int:
     arguments = parser.parse_args()
     if not nvcc():
         raise SystemExit("kernel_usage: nvcc is missing; install Nvidia's CUDA toolkit")
-    if not layout.host_source().is_dir():
+    if not paths.host_source().is_dir():
         raise SystemExit("kernel_usage: no source of Blender; run scripts/icwafer build blender")
     try:
         before, after = measure(ALL_KERNELS if arguments.all else SHADE_SURFACE)

@@ -12,7 +12,7 @@ import kernel_usage
 from kernel_usage import Usage
 
 import host_edits
-from icwafer import layout
+from icwafer import paths
 
 #: What nvcc 13.0 reports, shortened to one kernel and one function that is not one.
 REPORT = """\
@@ -47,12 +47,12 @@ class Report(unittest.TestCase):
 
 
 @unittest.skipUnless(kernel_usage.nvcc(), "nvcc is missing")
-@unittest.skipUnless(layout.host_source().is_dir(), "Blender's source is not there")
+@unittest.skipUnless(paths.host_source().is_dir(), "Blender's source is not there")
 class Compiles(unittest.TestCase):
     def test_shading_of_surfaces(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             tree = Path(folder) / "host"
-            kernel_usage.copy_host(layout.host_source(), tree)
+            kernel_usage.copy_host(paths.host_source(), tree)
             host_edits.apply(tree)
             ptx = Path(folder) / "shade_surface.ptx"
             try:
