@@ -213,18 +213,19 @@ class PhysicalSurface : public Surface {
   Bins bins(const LocalDirection o) const override
   {
     using physical_detail::mean_nm, physical_detail::tail_begin;
-    const double sigma = std::sqrt(physical_lobe_variance(p_));
+    const double sigma = std::sqrt(physical_lobe_variance(p_, p_.across));
+    const double sigma_along = std::sqrt(physical_lobe_variance(p_, p_.along));
     /* The density has a step where its tails begin. */
     const double tail_across = tail_begin * mean_nm / p_.across.spacing_nm;
     if (p_.along.spacing_nm > 0.0f) {
       const double tail_along = tail_begin * mean_nm / p_.along.spacing_nm;
-      const std::vector<double> even = even_edges(std::min(0.5 * sigma, 0.05));
-      return {merged(even, edges_around(-o.nu, {tail_across})),
-              merged(even, edges_around(-o.tau, {tail_along}))};
+      return {merged(even_edges(std::min(0.5 * sigma, 0.05)), edges_around(-o.nu, {tail_across})),
+              merged(even_edges(std::min(0.5 * sigma_along, 0.05)),
+                     edges_around(-o.tau, {tail_along}))};
     }
     std::vector<double> distances = {0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 13.0};
     for (double &distance : distances) {
-      distance *= sigma;
+      distance *= sigma_along;
     }
     return {merged(even_edges(std::min(sigma / 3.0, 0.05)), edges_around(-o.nu, {tail_across})),
             edges_around(-o.tau, distances)};
@@ -236,7 +237,8 @@ class PhysicalSurface : public Surface {
     text << "spacing " << p_.across.spacing_nm << " nm, duty " << p_.across.duty << ", across "
          << p_.along.spacing_nm << " nm, duty " << p_.along.duty << ", oxide " << p_.oxide_nm
          << " nm of index " << p_.oxide.a << ", groove " << p_.groove_nm << " nm, coherence "
-         << 0.376e-3f / p_.coherence_per_nm << " um, roughness sigma " << p_.roughness
+         << 0.376e-3f / p_.across.coherence_per_nm << " and "
+         << 0.376e-3f / p_.along.coherence_per_nm << " um, roughness sigma " << p_.roughness
          << ", variation " << p_.variation << ", metal " << p_.metal << " (n " << p_.custom_n[1]
          << ", k " << p_.custom_k[1] << "), illuminant " << p_.illuminant;
     return text.str();
@@ -254,13 +256,15 @@ template<typename Number> PhysicalParams physical_params_of(Random &random, cons
   const bool cross = random() % 3 == 0;
   const float cross_nm = cross ? number(200.0f, 200000.0f) : 0.0f;
   const Metal metal = Metal(random() % (metal_custom + 1));
+  /* The chi-squared test has fine bins along both axes if wires cross. */
+  const float coherence_most_um = cross ? 8.0f : 100.0f;
   PhysicalParams p = physical_params(
-      physical_lattice(spacing_nm, spacing_nm * number(0.02f, 0.98f)),
-      physical_lattice(cross_nm, cross_nm * number(0.02f, 0.98f)),
+      physical_lattice(
+          spacing_nm, spacing_nm * number(0.02f, 0.98f), number(2.0f, coherence_most_um)),
+      physical_lattice(
+          cross_nm, cross_nm * number(0.02f, 0.98f), number(0.5f, coherence_most_um)),
       number(1.0f, 2000.0f),
       number(10.0f, 1500.0f),
-      /* The chi-squared test has fine bins along both axes if wires cross. */
-      number(2.0f, cross ? 8.0f : 100.0f),
       random() % 2 ? number(0.01f, 0.6f) : 0.0f,
       random() % 2 ? number(0.005f, 0.2f) : 0.0f,
       Oxide(random() % (oxide_custom + 1)),
@@ -294,11 +298,14 @@ inline PhysicalParams bright_physical_params(Random &random)
   const float spacing_nm = log_uniform(random, 300.0f, 5000.0f);
   const float cross_nm = random() % 4 == 0 ? log_uniform(random, 300.0f, 5000.0f) : 0.0f;
   PhysicalParams p = physical_params(
-      physical_lattice(spacing_nm, spacing_nm * (random() % 2 ? 0.5f : uniform(random))),
-      physical_lattice(cross_nm, cross_nm * (random() % 2 ? 0.5f : uniform(random))),
+      physical_lattice(spacing_nm,
+                       spacing_nm * (random() % 2 ? 0.5f : uniform(random)),
+                       log_uniform(random, 0.5f, 30.0f)),
+      physical_lattice(cross_nm,
+                       cross_nm * (random() % 2 ? 0.5f : uniform(random)),
+                       log_uniform(random, 0.5f, 30.0f)),
       random() % 2 ? 0.0f : log_uniform(random, 50.0f, thick ? 10000.0f : 1000.0f),
       log_uniform(random, 50.0f, thick ? 10000.0f : 600.0f),
-      log_uniform(random, 0.5f, 30.0f),
       random() % 2 ? 0.0f : log_uniform(random, 0.05f, 0.6f),
       random() % 2 ? 0.0f : uniform(random, 0.0f, 0.2f),
       oxide_custom,

@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from icwafer.die import Die, generate
+from icwafer.chips.die import generate
+from icwafer.chips.model import MM, UM, Die
 from icwafer.errors import IcwaferError
-from icwafer.floorplan import MM, UM
 from icwafer.pictures import Camera, Light, Picture
 
 NODE = "ShaderNodeBsdfICWafer"

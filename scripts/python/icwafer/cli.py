@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-from icwafer import build, doctor, layout, packages, render, source
+from icwafer import build, doctor, layout_command, packages, paths, render, source
 from icwafer.errors import IcwaferError
 
 
@@ -32,7 +32,7 @@ class _Parser(argparse.ArgumentParser):
 
 def _demo(arguments: argparse.Namespace) -> int:
     build.build("blender", build.definitions(arguments.definitions))
-    for path in render.render("full", layout.OUT / "demo" / "wafer"):
+    for path in render.render("full", paths.OUT / "demo" / "wafer"):
         print(path)
     return 0
 
@@ -45,7 +45,7 @@ def _pictures(arguments: argparse.Namespace) -> int:
         raise _UsageError(f"no picture '{unknown[0]}'; choose from {', '.join(PICTURES)}")
     build.build("blender")
     for name in arguments.names or PICTURES:
-        for path in render.render(name, layout.OUT / "pictures" / name):
+        for path in render.render(name, paths.OUT / "pictures" / name):
             print(path)
     return 0
 
@@ -70,17 +70,18 @@ def _doctor(_: argparse.Namespace) -> int:
 
 
 def _test(arguments: list[str]) -> int:
-    packages.install("base", "core", "host", "test")  # at once, so that root is asked for once
+    # At once, so that root is asked for once.
+    packages.install("base", "core", "host", "layout", "import", "test")
     build.build("core")
     build.build("blender")
     return subprocess.run(
-        ["ctest", "--preset", "core", *arguments], cwd=layout.REPOSITORY
+        ["ctest", "--preset", "core", *arguments], cwd=paths.REPOSITORY
     ).returncode
 
 
 def _blender(arguments: list[str]) -> int:
     render.expect_blender()
-    os.execv(layout.BLENDER, [str(layout.BLENDER), *arguments])
+    os.execv(paths.BLENDER, [str(paths.BLENDER), *arguments])
 
 
 #: Commands that hand all their arguments on.
@@ -118,6 +119,7 @@ def _parser() -> _Parser:
     build_command.set_defaults(run=_build)
     add("blender", "start the built Blender; arguments go to it")
     add("doctor", "check dependencies, source edits and build").set_defaults(run=_doctor)
+    layout_command.register(add)
     pictures = add("pictures", "render the README's pictures to out/pictures")
     pictures.add_argument(
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"

@@ -9,14 +9,14 @@ import shutil
 import subprocess
 from collections.abc import Iterable
 
-from icwafer import layout, progress
+from icwafer import paths, progress
 from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests that start
-#: Blender.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and
+#: draws chips and wafers, "import" reads real chips, "test" are the tests that start Blender.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -48,6 +48,8 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "libspnav-dev",
         "opencollada-dev",
     ),
+    "layout": ("python3-matplotlib",),
+    "import": ("klayout",),
     "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
 }
 
@@ -98,14 +100,14 @@ def install(*purposes: str) -> None:
     environment = {"DEBIAN_FRONTEND": "noninteractive", "LC_ALL": "C"}
     try:
         progress.run(
-            "Package lists", [*apt, "update"], layout.LOGS / "apt-update.log", environment
+            "Package lists", [*apt, "update"], paths.LOGS / "apt-update.log", environment
         )
     except IcwaferError as error:  # another repository may be at fault: the installation decides
         _log.warning("%s", error)
     progress.run(
         f"Installing {len(absent)} packages",
         [*apt, "install", "--no-install-recommends", *absent],
-        layout.LOGS / "apt-install.log",
+        paths.LOGS / "apt-install.log",
         environment,
         "check the network and apt's sources, then run the same command again",
     )

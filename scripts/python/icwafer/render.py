@@ -7,7 +7,7 @@ import logging
 import shutil
 from pathlib import Path
 
-from icwafer import layout, progress
+from icwafer import paths, progress
 from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
@@ -15,14 +15,13 @@ _log = logging.getLogger(__name__)
 SCRIPT = Path(__file__).with_name("render_picture.py")
 #: Files of the package that a picture depends on, besides Blender itself.
 INPUTS = tuple(
-    SCRIPT.with_name(name)
-    for name in ("blender_scene.py", "die.py", "floorplan.py", "pictures.py", SCRIPT.name)
-)
+    SCRIPT.with_name(name) for name in ("blender_scene.py", "pictures.py", SCRIPT.name)
+) + tuple((SCRIPT.parent / "chips").rglob("*.py"))
 
 
 def expect_blender() -> None:
     """Raises `IcwaferError` unless Blender is built."""
-    if not layout.BLENDER.is_file():
+    if not paths.BLENDER.is_file():
         raise IcwaferError("Blender is not built yet; run scripts/icwafer build blender")
 
 
@@ -41,7 +40,7 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
     progress.run(
         f"Rendering {name}",
         [
-            layout.BLENDER,
+            paths.BLENDER,
             "-b",
             "--factory-startup",
             "--python-exit-code",
@@ -53,7 +52,7 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
             "--output",
             unfinished,
         ],
-        layout.LOGS / f"render-{name}.log",
+        paths.LOGS / f"render-{name}.log",
         advice="scripts/icwafer doctor checks Blender",
     )
     for path in finished:
@@ -65,5 +64,5 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
 def _up_to_date(products: tuple[Path, ...]) -> bool:
     if not all(product.is_file() for product in products):
         return False
-    newest = max(path.stat().st_mtime for path in (layout.BLENDER, *INPUTS) if path.exists())
+    newest = max(path.stat().st_mtime for path in (paths.BLENDER, *INPUTS) if path.exists())
     return min(product.stat().st_mtime for product in products) >= newest
