@@ -27,8 +27,10 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "python3-pyopencolorio",
     ),
     "core": (
+        "clang",
         "libbenchmark-dev",
         "libboost-dev",
+        "libclang-rt-14-dev",
         "libgmock-dev",
         "libgtest-dev",
     ),
