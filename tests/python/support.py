@@ -15,7 +15,7 @@ from unittest import mock
 REPOSITORY = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(REPOSITORY / "scripts" / "python"), str(REPOSITORY / "plugin")]
 
-from icwafer import cli, layout  # noqa: E402
+from icwafer import cli, paths  # noqa: E402
 
 
 def write(path: Path, text: str, mode: int = 0o644) -> Path:
@@ -46,7 +46,7 @@ class CommandCase(unittest.TestCase):
         write(self.host / "edits.toml", 'version = "3.4.1"\n')
         build = self.folder / "build"
         self.replace(
-            layout,
+            paths,
             BUILD=build,
             LOGS=build / "log",
             HOST=self.host,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from support import CommandCase, blender_tree, write
 
-from icwafer import build, layout, packages
+from icwafer import build, packages, paths
 from icwafer.errors import IcwaferError
 
 Usage = namedtuple("Usage", "total used free")
@@ -39,7 +39,7 @@ class DefinitionsTest(CommandCase):
 
     def test_the_last_build_decides_what_is_not_said(self) -> None:
         self.assertFalse(build.is_full({}))
-        write(layout.BUILD / "host" / "CMakeCache.txt", "ICWAFER_FULL:BOOL=on\n")
+        write(paths.BUILD / "host" / "CMakeCache.txt", "ICWAFER_FULL:BOOL=on\n")
         self.assertTrue(build.is_full({}))
         self.assertFalse(build.is_full({"ICWAFER_FULL": "OFF"}))
 
@@ -61,18 +61,18 @@ class BuildTest(CommandCase):
         status, out, err = self.icwafer("build", "core")
         self.assertEqual((status, err), (0, ""))
         self.assertIn("--preset core", self.steps()[0])
-        self.assertEqual(self.steps()[1], f"--build {layout.BUILD}/core")
+        self.assertEqual(self.steps()[1], f"--build {paths.BUILD}/core")
         self.assertRegex(out, r"Building core: done in \d")
 
     def test_blender_is_configured_built_and_installed(self) -> None:
-        self.replace(layout, REPOSITORY=self.folder)
+        self.replace(paths, REPOSITORY=self.folder)
         status, _, err = self.icwafer("build", f"-DICWAFER_BLENDER_SOURCE={self.tree}")
         self.assertEqual((status, err), (0, ""))
         configure, compile_host, install = self.steps()
         self.assertIn(f"-DICWAFER_BLENDER_SOURCE={self.tree.resolve()}", configure)
-        self.assertEqual(compile_host, f"--build {layout.BUILD}/host")
-        self.assertEqual(install, f"--install {layout.BUILD}/host")
-        self.assertTrue(layout.host_source().is_dir())
+        self.assertEqual(compile_host, f"--build {paths.BUILD}/host")
+        self.assertEqual(install, f"--install {paths.BUILD}/host")
+        self.assertTrue(paths.host_source().is_dir())
 
     def test_a_failed_step_is_the_last(self) -> None:
         self.fake_program(

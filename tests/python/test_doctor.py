@@ -9,7 +9,7 @@ import unittest
 
 from support import CommandCase, blender_tree, write
 
-from icwafer import build, cli, doctor, layout, packages
+from icwafer import build, cli, doctor, packages, paths
 from icwafer.errors import IcwaferError
 from icwafer.source import host_edits
 
@@ -41,11 +41,11 @@ class DoctorTest(CommandCase):
     def test_space(self) -> None:
         self.replace(build, free_gb=lambda folder: 1.5)
         self.expect(doctor.check_space(), "free", "make room")
-        write(layout.BLENDER, "")
+        write(paths.BLENDER, "")
         self.expect(doctor.check_space(), "free", "")
 
     def test_edits(self) -> None:
-        tree = layout.host_source()
+        tree = paths.host_source()
         write(
             self.host / "edits.toml",
             'version = "3.4.1"\n[[edit]]\nfile = "COPYING"\nanchor = "free"\n'
@@ -66,34 +66,34 @@ class DoctorTest(CommandCase):
         self.expect(check(), "COPYING: changed", f"remove {tree}")
 
     def test_half_built(self) -> None:
-        built = layout.HOST_BINARY / "bin" / "blender"
+        built = paths.HOST_BINARY / "bin" / "blender"
 
         def check() -> doctor.Finding:
-            return doctor.check_program("Blender", built, layout.BLENDER, "blender")
+            return doctor.check_program("Blender", built, paths.BLENDER, "blender")
 
         again = "run scripts/icwafer build blender"
         self.expect(check(), "not built yet", again)
-        write(layout.HOST_BINARY / "build.ninja", "")
+        write(paths.HOST_BINARY / "build.ninja", "")
         self.expect(check(), "half built", again)
         write(built, "")
         self.expect(check(), "not installed", again)
-        write(layout.BLENDER, "")
-        self.expect(check(), str(layout.BLENDER), "")
-        os.utime(layout.BLENDER, (1, 1))
+        write(paths.BLENDER, "")
+        self.expect(check(), str(paths.BLENDER), "")
+        os.utime(paths.BLENDER, (1, 1))
         self.expect(check(), "older than the build", again)
 
     def test_core(self) -> None:
         self.expect(doctor.check_core(), "not built", "run scripts/icwafer build core")
-        write(layout.BUILD / "core" / "tests" / "shaders" / "test_grating", "")
+        write(paths.BUILD / "core" / "tests" / "shaders" / "test_grating", "")
         self.expect(doctor.check_core(), "built", "")
 
     def test_start(self) -> None:
         self.expect(doctor.check_start(), "No such file", "run scripts/icwafer build blender")
-        write(layout.BLENDER, "#!/bin/sh\necho 'AttributeError: no node' >&2; exit 1\n", 0o755)
+        write(paths.BLENDER, "#!/bin/sh\necho 'AttributeError: no node' >&2; exit 1\n", 0o755)
         self.expect(doctor.check_start(), "AttributeError: no node", "run scripts/icwafer")
-        write(layout.BLENDER, "#!/bin/sh\nexit 139\n", 0o755)
+        write(paths.BLENDER, "#!/bin/sh\nexit 139\n", 0o755)
         self.expect(doctor.check_start(), "exit status 139", "run scripts/icwafer")
-        write(layout.BLENDER, "#!/bin/sh\nexit 0\n", 0o755)
+        write(paths.BLENDER, "#!/bin/sh\nexit 0\n", 0o755)
         self.expect(doctor.check_start(), "has the node", "")
 
     def test_a_check_that_cannot_be_made_is_a_failure(self) -> None:

@@ -8,7 +8,7 @@ import unittest
 
 from support import CommandCase, write
 
-from icwafer import layout, render
+from icwafer import paths, render
 from icwafer.errors import IcwaferError
 
 #: Stands in for Blender: writes what it was asked for, and counts how often.
@@ -22,7 +22,7 @@ echo exr > "$2.exr"
 class RenderTest(CommandCase):
     def setUp(self) -> None:
         super().setUp()
-        write(layout.BLENDER, BLENDER.replace("$2.count", f"{self.folder}/count"), 0o755)
+        write(paths.BLENDER, BLENDER.replace("$2.count", f"{self.folder}/count"), 0o755)
         self.replace(render, INPUTS=(write(self.folder / "pictures.py", ""),))
         self.base = self.folder / "out" / "demo" / "wafer"
 
@@ -45,13 +45,13 @@ class RenderTest(CommandCase):
 
     def test_a_failure_leaves_the_last_picture(self) -> None:
         png = write(self.base.with_suffix(".png"), "last")
-        write(layout.BLENDER, "#!/bin/sh\necho 'Error: no camera'; exit 1\n", 0o755)
+        write(paths.BLENDER, "#!/bin/sh\necho 'Error: no camera'; exit 1\n", 0o755)
         with self.assertRaisesRegex(IcwaferError, "Rendering full failed: Error: no camera"):
             render.render("full", self.base)
         self.assertEqual(png.read_text(), "last")
 
     def test_no_blender(self) -> None:
-        layout.BLENDER.unlink()
+        paths.BLENDER.unlink()
         with self.assertRaisesRegex(IcwaferError, "not built yet"):
             render.render("full", self.base)
 

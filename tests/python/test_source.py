@@ -14,7 +14,7 @@ from unittest import main
 
 from support import REPOSITORY, CommandCase, blender_tree, write
 
-from icwafer import apt_sources, layout, source
+from icwafer import apt_sources, paths, source
 
 
 def digest(path: Path, algorithm: str) -> str:
@@ -36,7 +36,7 @@ class TreeTest(CommandCase):
             'place = "after"\ntext = "and edited"\n',
         )
         tree = source.provide(self.origin)
-        self.assertEqual(tree, layout.BUILD / "source" / "blender-3.4.1")
+        self.assertEqual(tree, paths.BUILD / "source" / "blender-3.4.1")
         self.assertEqual((tree / "COPYING").read_text(), "free\nand edited\n")
         self.assertEqual((self.origin / "COPYING").read_text(), "free\n")
 
@@ -58,14 +58,14 @@ class TreeTest(CommandCase):
         )
 
     def test_an_interrupted_copy_is_made_again(self) -> None:
-        write(layout.BUILD / "source" / "blender-3.4.1.new" / "half", "")
+        write(paths.BUILD / "source" / "blender-3.4.1.new" / "half", "")
         tree = source.provide(self.origin)
         self.assertFalse((tree / "half").exists())
 
     def test_other_version(self) -> None:
         blender_tree(self.origin, 403, 2)
         self.expect_error(["source", "--from", str(self.origin)], 1, "Blender 4.3.2", "for 3.4.1")
-        self.assertFalse(layout.host_source().exists())
+        self.assertFalse(paths.host_source().exists())
 
     def test_not_a_blender_tree(self) -> None:
         empty = self.folder / "empty"
@@ -76,8 +76,8 @@ class TreeTest(CommandCase):
         """No file may grow beyond 64 KiB: the copy fails as on a full disk, and leaves nothing."""
         (self.origin / "large").write_bytes(bytes(100_000))
         program = (
-            "import sys; from pathlib import Path; from icwafer import cli, layout\n"
-            "layout.BUILD = Path(sys.argv[1]); layout.HOST = Path(sys.argv[2])\n"
+            "import sys; from pathlib import Path; from icwafer import cli, paths\n"
+            "paths.BUILD = Path(sys.argv[1]); paths.HOST = Path(sys.argv[2])\n"
             "sys.exit(cli.main(sys.argv[3:]))"
         )
         done = subprocess.run(
@@ -86,7 +86,7 @@ class TreeTest(CommandCase):
                 "-B",
                 "-c",
                 program,
-                layout.BUILD,
+                paths.BUILD,
                 self.host,
                 "source",
                 "--from",
@@ -100,7 +100,7 @@ class TreeTest(CommandCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertIn("File too large", done.stderr)
-        self.assertEqual(list((layout.BUILD / "source").iterdir()), [])
+        self.assertEqual(list((paths.BUILD / "source").iterdir()), [])
 
 
 class PackageTest(CommandCase):
@@ -128,22 +128,22 @@ class PackageTest(CommandCase):
         write(folder / source.SUMS, "".join(lines))
 
     def test_it_is_unpacked_from_the_cache(self) -> None:
-        self.package(layout.cache_folder() / "source")
+        self.package(paths.cache_folder() / "source")
         tree = source.provide()
         self.assertEqual(source.host_edits.tree_version(tree), "3.4.1")
         self.assertTrue((tree / "debian").is_dir())
 
     def test_a_damaged_download_is_refused(self) -> None:
-        cache = layout.cache_folder() / "source"
+        cache = paths.cache_folder() / "source"
         self.package(cache)
         with (cache / self.names[0]).open("ab") as file:
             file.write(b"x")
         self.expect_error(["source"], 1, self.names[0], "run the same command again")
         self.assertFalse((cache / self.names[0]).exists())
-        self.assertFalse(layout.host_source().exists())
+        self.assertFalse(paths.host_source().exists())
 
     def test_a_missing_download_is_noticed(self) -> None:
-        cache = layout.cache_folder() / "source"
+        cache = paths.cache_folder() / "source"
         self.package(cache)
         (cache / self.names[2]).unlink()
         self.expect_error(["source"], 1, self.names[2], "run the same command again")
@@ -154,7 +154,7 @@ class PackageTest(CommandCase):
         )
         self.replace(apt_sources, configured_files=lambda: [nowhere])
         self.expect_error(["source"], 1, "127.0.0.1", "check the network")
-        self.assertFalse(layout.host_source().exists())
+        self.assertFalse(paths.host_source().exists())
 
     def test_the_index(self) -> None:
         records = textwrap.dedent(

@@ -9,7 +9,7 @@ import shutil
 from collections.abc import Mapping
 from pathlib import Path
 
-from icwafer import layout, packages, progress, source
+from icwafer import packages, paths, progress, source
 from icwafer.errors import IcwaferError
 
 TARGETS = ("core", "cycles", "blender")
@@ -41,7 +41,7 @@ def definitions(words: list[str]) -> dict[str, str]:
 
 def cached_option(name: str) -> str:
     """The value of a CMake variable in the host's build folder; empty before the first build."""
-    cache = layout.BUILD / "host" / "CMakeCache.txt"
+    cache = paths.BUILD / "host" / "CMakeCache.txt"
     text = cache.read_text(encoding="utf-8") if cache.is_file() else ""
     match = re.search(rf"^{name}:\w+=(.*)$", text, re.MULTILINE)
     return match[1] if match else ""
@@ -63,31 +63,31 @@ def build(target: str, options: Mapping[str, str] | None = None) -> None:
     options = options or {}
     if target == "core":
         packages.install("base", "core")
-        _expect_space(target, layout.BUILD / "core" / "build.ninja")
+        _expect_space(target, paths.BUILD / "core" / "build.ninja")
         _configure(target, options)
-        _compile(target, layout.BUILD / "core", {})
+        _compile(target, paths.BUILD / "core", {})
         return
     full = is_full(options)
     packages.install("base", "host", *(["full"] if full else []))
-    program = layout.CYCLES if target == "cycles" else layout.BLENDER
+    program = paths.CYCLES if target == "cycles" else paths.BLENDER
     _expect_space(target, program)
     origin = options.get("ICWAFER_BLENDER_SOURCE", cached_option("ICWAFER_BLENDER_SOURCE"))
     source.provide(Path(origin) if origin else None)
     _configure(target, options)
     # The host's own ninja counts; the one around it keeps quiet.
-    _compile(target, layout.BUILD / "host", {"NINJA_STATUS": "- ", **_parallel(full)})
+    _compile(target, paths.BUILD / "host", {"NINJA_STATUS": "- ", **_parallel(full)})
     progress.run(
-        f"Installing to {layout.INSTALLED.relative_to(layout.REPOSITORY)}",
-        ["cmake", "--install", layout.BUILD / "host"],
-        layout.LOGS / f"{target}-install.log",
+        f"Installing to {paths.INSTALLED.relative_to(paths.REPOSITORY)}",
+        ["cmake", "--install", paths.BUILD / "host"],
+        paths.LOGS / f"{target}-install.log",
     )
 
 
 def _expect_space(target: str, product: Path) -> None:
-    free, needed = free_gb(layout.REPOSITORY), SPACE_GB[target]
+    free, needed = free_gb(paths.REPOSITORY), SPACE_GB[target]
     if not product.exists() and free < needed:
         raise IcwaferError(
-            f"{layout.REPOSITORY}: {free:.1f} GB free, but building {target} needs {needed:g} GB; "
+            f"{paths.REPOSITORY}: {free:.1f} GB free, but building {target} needs {needed:g} GB; "
             "make room and run the same command again"
         )
 
@@ -98,12 +98,12 @@ def _configure(target: str, options: Mapping[str, str]) -> None:
         [
             "cmake",
             "-S",
-            layout.REPOSITORY,
+            paths.REPOSITORY,
             "--preset",
             target,
             *(f"-D{name}={value}" for name, value in options.items()),
         ],
-        layout.LOGS / f"{target}-configure.log",
+        paths.LOGS / f"{target}-configure.log",
     )
 
 
@@ -111,7 +111,7 @@ def _compile(target: str, folder: Path, environment: Mapping[str, str]) -> None:
     progress.run(
         f"Building {target}",
         ["cmake", "--build", folder],
-        layout.LOGS / f"{target}-build.log",
+        paths.LOGS / f"{target}-build.log",
         environment,
         "mend this and run the same command again: what is built stays",
     )

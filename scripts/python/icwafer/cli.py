@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-from icwafer import build, doctor, layout, packages, render, source
+from icwafer import build, doctor, packages, paths, render, source
 from icwafer.errors import IcwaferError
 
 
@@ -32,7 +32,7 @@ class _Parser(argparse.ArgumentParser):
 
 def _demo(arguments: argparse.Namespace) -> int:
     build.build("blender", build.definitions(arguments.definitions))
-    for path in render.render("full", layout.OUT / "demo" / "wafer"):
+    for path in render.render("full", paths.OUT / "demo" / "wafer"):
         print(path)
     return 0
 
@@ -45,7 +45,7 @@ def _pictures(arguments: argparse.Namespace) -> int:
         raise _UsageError(f"no picture '{unknown[0]}'; choose from {', '.join(PICTURES)}")
     build.build("blender")
     for name in arguments.names or PICTURES:
-        for path in render.render(name, layout.OUT / "pictures" / name):
+        for path in render.render(name, paths.OUT / "pictures" / name):
             print(path)
     return 0
 
@@ -74,13 +74,13 @@ def _test(arguments: list[str]) -> int:
     build.build("core")
     build.build("blender")
     return subprocess.run(
-        ["ctest", "--preset", "core", *arguments], cwd=layout.REPOSITORY
+        ["ctest", "--preset", "core", *arguments], cwd=paths.REPOSITORY
     ).returncode
 
 
 def _blender(arguments: list[str]) -> int:
     render.expect_blender()
-    os.execv(layout.BLENDER, [str(layout.BLENDER), *arguments])
+    os.execv(paths.BLENDER, [str(paths.BLENDER), *arguments])
 
 
 #: Commands that hand all their arguments on.

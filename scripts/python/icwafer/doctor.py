@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from icwafer import build, layout, packages
+from icwafer import build, packages, paths
 from icwafer.errors import IcwaferError
 from icwafer.source import host_edits
 
@@ -64,8 +64,8 @@ def check_compiler_cache() -> Finding:
 
 def check_space() -> Finding:
     """Room for a build, or for going on with the one that is there."""
-    free = build.free_gb(layout.REPOSITORY)
-    needed = 1.0 if layout.BLENDER.exists() else build.SPACE_GB["blender"]
+    free = build.free_gb(paths.REPOSITORY)
+    needed = 1.0 if paths.BLENDER.exists() else build.SPACE_GB["blender"]
     text = f"{free:.0f} GB free"
     mend = "" if free >= needed else f"make room: {needed:g} GB are needed"
     return Finding("disk", text, mend)
@@ -101,16 +101,16 @@ def check_program(subject: str, built: Path, installed: Path, target: str) -> Fi
 
 def check_core() -> Finding:
     """The tests of the material are configured and built."""
-    programs = list((layout.BUILD / "core" / "tests" / "shaders").glob("test_*"))
+    programs = list((paths.BUILD / "core" / "tests" / "shaders").glob("test_*"))
     if any(path.is_file() for path in programs):
-        return Finding("core", f"built in {layout.BUILD / 'core'}")
+        return Finding("core", f"built in {paths.BUILD / 'core'}")
     return Finding("core", "not built yet", "run scripts/icwafer build core")
 
 
 def check_start() -> Finding:
     """Blender starts without a window, its Python works, and it knows the node."""
     mend = "run scripts/icwafer build blender; if that does not help, remove build/install first"
-    blender = layout.BLENDER
+    blender = paths.BLENDER
     command = [blender, "-b", "--factory-startup", "--python-exit-code", "1"]
     try:
         done = subprocess.run(
@@ -133,17 +133,17 @@ def check_start() -> Finding:
 def checks() -> list[Callable[[], Finding]]:
     """All checks, in the order in which things depend on each other."""
     purposes = ["base", "core", "host", *(["full"] if build.is_full({}) else [])]
-    bin_folder = layout.HOST_BINARY / "bin"
+    bin_folder = paths.HOST_BINARY / "bin"
     return [
         check_system,
         lambda: check_packages("packages to build", *purposes),
         lambda: check_packages("packages to test", "test"),
         check_compiler_cache,
         check_space,
-        lambda: check_edits(layout.host_source(), layout.HOST, layout.REPOSITORY),
+        lambda: check_edits(paths.host_source(), paths.HOST, paths.REPOSITORY),
         check_core,
-        lambda: check_program("cycles", bin_folder / "cycles", layout.CYCLES, "blender"),
-        lambda: check_program("Blender", bin_folder / "blender", layout.BLENDER, "blender"),
+        lambda: check_program("cycles", bin_folder / "cycles", paths.CYCLES, "blender"),
+        lambda: check_program("Blender", bin_folder / "blender", paths.BLENDER, "blender"),
         check_start,
     ]
 

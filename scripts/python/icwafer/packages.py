@@ -9,7 +9,7 @@ import shutil
 import subprocess
 from collections.abc import Iterable
 
-from icwafer import layout, progress
+from icwafer import paths, progress
 from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
@@ -98,14 +98,14 @@ def install(*purposes: str) -> None:
     environment = {"DEBIAN_FRONTEND": "noninteractive", "LC_ALL": "C"}
     try:
         progress.run(
-            "Package lists", [*apt, "update"], layout.LOGS / "apt-update.log", environment
+            "Package lists", [*apt, "update"], paths.LOGS / "apt-update.log", environment
         )
     except IcwaferError as error:  # another repository may be at fault: the installation decides
         _log.warning("%s", error)
     progress.run(
         f"Installing {len(absent)} packages",
         [*apt, "install", "--no-install-recommends", *absent],
-        layout.LOGS / "apt-install.log",
+        paths.LOGS / "apt-install.log",
         environment,
         "check the network and apt's sources, then run the same command again",
     )

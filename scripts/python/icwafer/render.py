@@ -7,7 +7,7 @@ import logging
 import shutil
 from pathlib import Path
 
-from icwafer import layout, progress
+from icwafer import paths, progress
 from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
@@ -22,7 +22,7 @@ INPUTS = tuple(
 
 def expect_blender() -> None:
     """Raises `IcwaferError` unless Blender is built."""
-    if not layout.BLENDER.is_file():
+    if not paths.BLENDER.is_file():
         raise IcwaferError("Blender is not built yet; run scripts/icwafer build blender")
 
 
@@ -41,7 +41,7 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
     progress.run(
         f"Rendering {name}",
         [
-            layout.BLENDER,
+            paths.BLENDER,
             "-b",
             "--factory-startup",
             "--python-exit-code",
@@ -53,7 +53,7 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
             "--output",
             unfinished,
         ],
-        layout.LOGS / f"render-{name}.log",
+        paths.LOGS / f"render-{name}.log",
         advice="scripts/icwafer doctor checks Blender",
     )
     for path in finished:
@@ -65,5 +65,5 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
 def _up_to_date(products: tuple[Path, ...]) -> bool:
     if not all(product.is_file() for product in products):
         return False
-    newest = max(path.stat().st_mtime for path in (layout.BLENDER, *INPUTS) if path.exists())
+    newest = max(path.stat().st_mtime for path in (paths.BLENDER, *INPUTS) if path.exists())
     return min(product.stat().st_mtime for product in products) >= newest

@@ -19,10 +19,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-from icwafer import apt_sources, layout, progress
+from icwafer import apt_sources, paths, progress
 from icwafer.errors import IcwaferError
 
-sys.path.insert(0, str(layout.PLUGIN))
+sys.path.insert(0, str(paths.PLUGIN))
 import host_edits  # noqa: E402
 
 _log = logging.getLogger(__name__)
@@ -38,7 +38,7 @@ def provide(origin: Path | None = None) -> Path:
     `origin` is a tree of the same version to copy; None means Debian's source package. A tree that
     is there and came from elsewhere is replaced.
     """
-    tree = layout.host_source()
+    tree = paths.host_source()
     note = tree.with_name(f"{tree.name}.origin")
     wanted = str(origin.resolve()) if origin else f"Debian's source package {PACKAGE}"
     if not (tree.is_dir() and _read(note) == wanted):
@@ -46,9 +46,9 @@ def provide(origin: Path | None = None) -> Path:
         if origin:
             _copy(origin, tree)
         else:
-            _unpack(fetch(layout.cache_folder() / "source"), tree)
+            _unpack(fetch(paths.cache_folder() / "source"), tree)
         note.write_text(wanted, encoding="utf-8")
-    changed = host_edits.apply(tree, layout.HOST)
+    changed = host_edits.apply(tree, paths.HOST)
     if changed:
         _log.info("%d files of the source edited or brought up to date", len(changed))
     return tree
@@ -60,9 +60,9 @@ def _read(path: Path) -> str:
 
 def _expect_version(tree: Path) -> None:
     version = host_edits.tree_version(tree)
-    if version != layout.host_version():
+    if version != paths.host_version():
         raise IcwaferError(
-            f"{tree}: Blender {version}, but the node is for {layout.host_version()}; "
+            f"{tree}: Blender {version}, but the node is for {paths.host_version()}; "
             "name a tree of that version with ICWAFER_BLENDER_SOURCE"
         )
 
@@ -170,7 +170,7 @@ def _download(folder: Path) -> None:
     text = progress.run(
         "Index of Debian's source packages",
         ["apt-get", "-q", *options, "update"],
-        layout.LOGS / "source-index.log",
+        paths.LOGS / "source-index.log",
         environment,
         advice,
     )
@@ -180,12 +180,12 @@ def _download(folder: Path) -> None:
         text=True,
         env={**os.environ, **environment},
     )
-    version, sums = newest_record(records.stdout, layout.host_version())
+    version, sums = newest_record(records.stdout, paths.host_version())
     if not version:
         complaints = [line for line in text.splitlines() if line.startswith(("E:", "W:"))]
         reason = complaints[0] if complaints else f"the index has no {PACKAGE}"
         raise IcwaferError(
-            f"no source package of Blender {layout.host_version()}: {reason}; {advice}, or name a "
+            f"no source package of Blender {paths.host_version()}: {reason}; {advice}, or name a "
             "source tree with -DICWAFER_BLENDER_SOURCE=DIR"
         )
     # apt-get has no option for the folder that it downloads to: it is the working folder.
@@ -202,7 +202,7 @@ def _download(folder: Path) -> None:
             "--only-source",
             f"{PACKAGE}={version}",
         ],
-        layout.LOGS / "source-download.log",
+        paths.LOGS / "source-download.log",
         environment,
         advice,
     )
@@ -233,7 +233,7 @@ def _unpack(dsc: Path, tree: Path) -> None:
         progress.run(
             "Unpacking the source",
             ["dpkg-source", "--no-check", "--no-copy", "-x", dsc, staging],
-            layout.LOGS / "source-unpack.log",
+            paths.LOGS / "source-unpack.log",
         )
         _expect_version(staging)
     except BaseException:
