@@ -19,6 +19,7 @@ from typing import NoReturn
 
 from icwafer import build, doctor, packages, paths, render, source
 from icwafer.errors import IcwaferError
+from icwafer.study import command as study_command
 
 
 class _UsageError(Exception):
@@ -123,6 +124,7 @@ def _parser() -> _Parser:
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"
     )
     pictures.set_defaults(run=_pictures)
+    study_command.register(add)
     source_command = add("source", "unpack the host's source and apply the edits")
     source_command.add_argument(
         "--from", dest="origin", metavar="DIR", help="tree to copy instead"

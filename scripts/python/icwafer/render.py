@@ -8,16 +8,14 @@ import shutil
 from pathlib import Path
 
 from icwafer import paths, progress
+from icwafer.dependencies import imported
 from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
 
 SCRIPT = Path(__file__).with_name("render_picture.py")
 #: Files of the package that a picture depends on, besides Blender itself.
-INPUTS = tuple(
-    SCRIPT.with_name(name)
-    for name in ("blender_scene.py", "die.py", "floorplan.py", "pictures.py", SCRIPT.name)
-)
+INPUTS = tuple(imported(SCRIPT))
 
 
 def expect_blender() -> None:

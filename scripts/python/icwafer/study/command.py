@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command `icwafer render`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from icwafer import paths
+from icwafer.errors import IcwaferError
+from icwafer.progress import duration
+from icwafer.study import fields, run, slurm
+from icwafer.study.order import Order
+
+#: The studies that come with the project.
+STUDIES = paths.REPOSITORY / "scripts" / "studies"
+SHOWN_JOBS = 20
+
+
+def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
+    """Adds the command; `add(name, help)` makes its parser."""
+    command = add("render", "render a study: one file that says which images, see the README")
+    command.add_argument("study", nargs="?", type=Path, metavar="STUDY.toml")
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results")
+    command.add_argument(
+        "--all",
+        action="store_true",
+        help="render all studies of the project, each to a folder of its name in DIR "
+        "(if there is no -o: out/studies)",
+    )
+    command.add_argument("--dry-run", action="store_true", help="only say what would be done")
+    command.add_argument(
+        "--set",
+        dest="settings",
+        action="append",
+        default=[],
+        metavar="SETTING=VALUE",
+        help="for all images, such as render.samples=4",
+    )
+    command.add_argument(
+        "--settings", dest="list", action="store_true", help="list all settings of a scene"
+    )
+    command.add_argument(
+        "--only", action="append", default=[], metavar="JOB", help="only this job of the study"
+    )
+    command.add_argument(
+        "--jobs",
+        type=_count,
+        default=1,
+        metavar="N",
+        help="images that are rendered at the same time (%(default)s); they share the cores",
+    )
+    command.add_argument(
+        "--isolate", action="store_true", help="start Blender anew for every image"
+    )
+    command.add_argument(
+        "--timeout", type=float, default=3600.0, metavar="S", help="for one image (%(default)g s)"
+    )
+    command.add_argument("--engine", choices=("local", "slurm"), default="local")
+    command.add_argument(
+        "--sbatch",
+        action="append",
+        default=[],
+        metavar="OPTION",
+        help="for Slurm's sbatch, such as --sbatch=--partition=long",
+    )
+    command.set_defaults(run=_run)
+
+
+def _count(text: str) -> int:
+    if not text.isdigit() or not 1 <= int(text) <= 1024:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 1 to 1024")
+    return int(text)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    if arguments.list:
+        for name, rule in fields.rules().items():
+            allowed = rule.range if rule.low > -float("inf") else ""
+            print(f"{name:32}  {allowed:20}  {rule.help.split('. ')[0]}")
+        return 0
+    orders = _orders(arguments)
+    return max(_one(order, arguments) for order in orders)
+
+
+def _orders(arguments: argparse.Namespace) -> Sequence[Order]:
+    if arguments.all == bool(arguments.study):
+        raise IcwaferError("name one study, or --all; see scripts/icwafer render --help")
+    output = arguments.output
+    if arguments.all:
+        folder = output or paths.OUT / "studies"
+        found = sorted(STUDIES.glob("*.toml"))
+        pairs = [(study, folder / study.stem) for study in found if "base" not in study.stem]
+    elif output is None and not arguments.dry_run:
+        raise IcwaferError("say where the results go: -o DIR")
+    else:
+        pairs = [(arguments.study, output or paths.OUT / "studies" / arguments.study.stem)]
+    return [
+        Order(
+            study,
+            folder,
+            Path(os.environ.get("ICWAFER_BLENDER") or paths.BLENDER),
+            tuple(arguments.settings),
+            tuple(arguments.only),
+            arguments.jobs,
+            arguments.isolate,
+            arguments.timeout,
+        )
+        for study, folder in pairs
+    ]
+
+
+def _one(order: Order, arguments: argparse.Namespace) -> int:
+    made = run.prepare(order)
+    if arguments.dry_run:
+        run.judge(order, made)
+        _describe(order, made)
+        return 0
+    engine = run.render_here
+    if arguments.engine == "slurm":
+        engine = slurm.engine(tuple(arguments.sbatch))
+    summary = run.render(order, made, engine)
+    for outcome in summary.failed:
+        log = order.folder / "jobs" / outcome.job.id / "log.txt"
+        print(f"failed: {outcome.job.id}: {outcome.error} ({log})")
+    print(
+        f"{order.folder}: {summary.rendered} rendered, {summary.present} were there, "
+        f"{len(summary.failed)} failed"
+    )
+    return 1 if summary.failed else 0
+
+
+def _describe(order: Order, made: run.Plan) -> None:
+    jobs = run.missing(order, made)
+    for job in jobs[:SHOWN_JOBS]:
+        print(job.id)
+    if len(jobs) > SHOWN_JOBS:
+        print(f"... and {len(jobs) - SHOWN_JOBS} more")
+    seconds = run.estimate_s(order, made, jobs)
+    guess = "not known" if seconds is None else f"about {duration(seconds)}"
+    print(f"{len(jobs)} of {len(made.jobs)} images are to be rendered: {guess}")

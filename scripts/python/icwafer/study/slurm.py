@@ -1,0 +1,1 @@
+def engine(x): pass
