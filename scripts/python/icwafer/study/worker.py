@@ -25,7 +25,7 @@ import bpy  # noqa: E402
 
 from icwafer import blender_image, blender_scene  # noqa: E402
 from icwafer.errors import DiskFull, IcwaferError, SettingError  # noqa: E402
-from icwafer.study import blend_file, exr, fields  # noqa: E402
+from icwafer.study import blend_file, fields, image_file  # noqa: E402
 
 _LIBC = ctypes.CDLL(None)
 _PR_SET_PDEATHSIG = 1
@@ -94,12 +94,11 @@ def _render_to(folder: Path, settings: fields.Scene, attributes: Mapping[str, st
     size = scene.render.resolution_x, scene.render.resolution_y
     blender_image.expect_space(folder, size)
     bpy.ops.render.render()
-    raw = folder / "raw.exr"
-    blender_image.save(scene, raw)
-    blender_image.save(scene, folder / "image.png")
-    exr.add_attributes(raw, folder / "image.exr", attributes)
-    raw.unlink()
-    exr.expect_complete(folder / "image.png")
+    for name, added in (("image.exr", attributes), ("image.png", {})):
+        raw = folder / f"raw-{name}"
+        blender_image.save(scene, raw)
+        image_file.copy(raw, folder / name, added)
+        raw.unlink()
     return {
         "seconds": round(time.monotonic() - begin, 3),
         "samples": scene.cycles.samples,
@@ -122,7 +121,7 @@ def _log(path: Path) -> Iterator[None]:
     """Everything that is written to the screen meanwhile goes to a file, from C as from Python."""
     streams = (sys.stdout, sys.stderr)
     saved = [os.dup(number) for number in (1, 2)]
-    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
     try:
         for number in (1, 2):
             os.dup2(file, number)
