@@ -17,15 +17,16 @@ PACKAGE = ROOT / "scripts" / "python"
 BLENDER = Path(os.environ.get("ICWAFER_BLENDER", ROOT / "build" / "install" / "blender"))
 sys.path.insert(0, str(PACKAGE))
 
-from icwafer.die import generate  # noqa: E402
-from icwafer.floorplan import MM  # noqa: E402
+from icwafer.chips.die import generate  # noqa: E402
+from icwafer.chips.model import MM  # noqa: E402
 from icwafer.pictures import PICTURES  # noqa: E402
 
 DUMP_MESH = """
 import sys
 sys.path.insert(0, sys.argv[-2])
 import numpy as np
-from icwafer import blender_scene, die, pictures
+from icwafer import blender_scene, pictures
+from icwafer.chips import die
 mesh = blender_scene.die_mesh(die.generate(pictures.PICTURES["full"].die))
 assert not mesh.validate(), "the mesh is not valid"
 def read(items, name, width=1):

@@ -12,18 +12,20 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "python"))
 
-from icwafer.die import Die, DieSpec, Group, Spread, generate, with_spacing  # noqa: E402
+from icwafer.chips.die import generate  # noqa: E402
+from icwafer.chips.model import MM, Die, DieSpec, Group, Kind  # noqa: E402
+from icwafer.chips.presets.spacing import with_spacing  # noqa: E402
+from icwafer.chips.spread import Normal, Uniform  # noqa: E402
 from icwafer.errors import IcwaferError  # noqa: E402
-from icwafer.floorplan import MM, Kind  # noqa: E402
 
 SEEDS = range(12)
 GROUPS = (
-    Group("logic", Kind.LOGIC, Spread(1080, 12), weight=3.0),
-    Group("other logic", Kind.LOGIC, Spread(960, 20), turned=1.0),
-    Group("memory", Kind.MEMORY, Spread(1190, 8), diffraction=Spread(0.6, 0.05)),
-    Group("analog", Kind.ANALOG, Spread(1270, 15), turned=0.5),
-    Group("pads", Kind.IO, Spread(920, 15)),
-    Group("channel", Kind.STRIP, Spread(1000), diffraction=Spread(0.0)),
+    Group("logic", Kind.LOGIC, Normal(1080, 12), weight=3.0),
+    Group("other logic", Kind.LOGIC, Normal(960, 20), turned=1.0),
+    Group("memory", Kind.MEMORY, Normal(1190, 8), diffraction=Normal(0.6, 0.05)),
+    Group("analog", Kind.ANALOG, Normal(1270, 15), turned=0.5),
+    Group("pads", Kind.IO, Normal(920, 15)),
+    Group("channel", Kind.STRIP, Normal(1000), diffraction=Normal(0.0)),
 )
 SPEC = DieSpec(GROUPS)
 
@@ -129,22 +131,22 @@ class Statistics(unittest.TestCase):
             self.assertGreater(logic[0], 1.5 * logic[1])
 
     def test_one_wide_spread_fills_its_whole_range(self) -> None:
-        die = generate(replace(SPEC, groups=with_spacing(GROUPS, Spread.between(800, 1200))))
+        die = generate(replace(SPEC, groups=with_spacing(GROUPS, Uniform(800, 1200))))
         self.assertTrue(800 <= die.spacing_nm.min() < 805)
         self.assertTrue(1195 < die.spacing_nm.max() <= 1200)
         self.assertAlmostEqual(cell_values(die, 0).std(), 400 / 12**0.5, delta=10)
 
     def test_a_normal_spread_ends_at_three_deviations(self) -> None:
-        values = Spread(1000, 10).draw(np.random.default_rng(1), 100_000)
+        values = Normal(1000, 10).draw(np.random.default_rng(1), 100_000)
         self.assertEqual((values.min(), values.max()), (970, 1030))
 
 
 class BadDescriptions(unittest.TestCase):
     def test_each_is_refused_by_name(self) -> None:
-        narrow = replace(GROUPS[0], spacing_nm=Spread(50, 20))
-        negative = replace(GROUPS[0], oxide_nm=Spread(530, -1))
+        narrow = replace(GROUPS[0], spacing_nm=Normal(50, 20))
+        negative = replace(GROUPS[0], oxide_nm=Normal(530, -1))
         for spec, words in (
-            (replace(SPEC, groups=GROUPS[:2] + GROUPS[3:]), "MEMORY"),
+            (replace(SPEC, groups=GROUPS[:2] + GROUPS[3:]), "memory"),
             (replace(SPEC, height_mm=4.0), "too small"),
             (replace(SPEC, groups=(narrow, *GROUPS[1:])), "spacing_nm"),
             (replace(SPEC, groups=(negative, *GROUPS[1:])), "oxide_nm"),

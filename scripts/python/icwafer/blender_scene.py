@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from icwafer.die import Die, generate
+from icwafer.chips.die import generate
+from icwafer.chips.model import MM, UM, Die
 from icwafer.errors import IcwaferError, SettingError
-from icwafer.floorplan import MM, UM
 from icwafer.pictures import Camera, Environment, Light, NodeValue, Picture, Render, View
 
 NODE = "ShaderNodeBsdfICWafer"

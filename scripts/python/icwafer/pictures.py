@@ -8,11 +8,19 @@ z = 0 with its centre at the origin.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
+from icwafer.chips.model import DieSpec
+from icwafer.chips.presets.spacing import (
+    CLUSTERED_DIE,
+    CLUSTERED_GROUPS,
+    EVEN_GROUPS,
+    NORMAL_DIE,
+    UNIFORM_DIE,
+    with_spacing,
+)
 from icwafer.chips.rules import ruled
-from icwafer.die import DieSpec, Group, Spread, with_spacing
-from icwafer.floorplan import Kind
+from icwafer.chips.spread import Normal
 
 Vector = tuple[float, float, float]
 #: Value of an input or property of the node: `use_thin_film` is a flag, `model` a name, `Color`
@@ -112,25 +120,6 @@ class Picture:
     render: Render = Render()
 
 
-# The largest group gives the background, the others texture.
-CLUSTERED = (
-    Group("core logic", Kind.LOGIC, Spread(1080, 7), diffraction=Spread(0.5, 0.04), weight=4.0),
-    Group("dense logic", Kind.LOGIC, Spread(960, 14), diffraction=Spread(0.4, 0.05), turned=1.0),
-    Group("cache", Kind.MEMORY, Spread(1190, 6), diffraction=Spread(0.6, 0.03), weight=2.0),
-    Group(
-        "register file", Kind.MEMORY, Spread(1000, 10), diffraction=Spread(0.4, 0.04), turned=1.0
-    ),
-    Group("analog", Kind.ANALOG, Spread(1270, 12), diffraction=Spread(0.35, 0.04), turned=0.5),
-    Group("pads", Kind.IO, Spread(920, 15), diffraction=Spread(0.4, 0.04)),
-    Group("channel", Kind.STRIP, Spread(1000), diffraction=Spread(0.0)),
-)
-
-# One kind of block beside another no longer differs, but for the channels.
-EVEN = tuple(
-    group if group.kind == Kind.STRIP else replace(group, diffraction=Spread(0.5), turned=0.0)
-    for group in CLUSTERED
-)
-
 WHOLE = Camera(position_mm=(-11.1, -24.7, 20.9), target_mm=(0.0, -0.7, 0.0), lens_mm=66)
 NEAR = Camera(position_mm=(-6.4, -21.1, 14.5), target_mm=(-1.1, -0.55, 0.0), lens_mm=66)
 
@@ -141,9 +130,8 @@ LEFT_PAIR = (
     Light("POINT", (-16.0, -18.0, 20.0), 22000),
 )
 
-PROCESSOR = DieSpec(CLUSTERED, seed=17)
-GRATING = DieSpec(with_spacing(EVEN, Spread(1000, 4)), seed=17)
-SISTER = DieSpec(CLUSTERED, seed=6)
+PROCESSOR = DieSpec(CLUSTERED_GROUPS, seed=17)
+GRATING = DieSpec(with_spacing(EVEN_GROUPS, Normal(1000, 4)), seed=17)
 
 MATERIAL: dict[str, NodeValue] = {"Lobe Width": 0.02, "Specular Roughness": 0.15}
 GRATING_ONLY = MATERIAL | {"use_thin_film": False, "use_wire_diffraction": False}
@@ -191,21 +179,21 @@ PICTURES = {
     ),
     "random_spacing": Picture(
         "Spacing at random between 800 and 1200 nm: a disordered mess.",
-        DieSpec(with_spacing(CLUSTERED, Spread.between(800, 1200)), seed=6, copies_alike=False),
+        UNIFORM_DIE,
         LEFT_PAIR,
         NEAR,
         MATERIAL | {"Lobe Width": 0.04},
     ),
     "narrow_spacing": Picture(
         "Spacing 1000 nm within 50 everywhere: the blocks all but vanish, no texture.",
-        DieSpec(with_spacing(EVEN, Spread(1000, 50 / 3)), seed=6),
+        NORMAL_DIE,
         LEFT_PAIR,
         NEAR,
         MATERIAL | {"Lobe Width": 0.04},
     ),
     "clustered_groups": Picture(
         "Clustered groups: the largest gives the background colours, the smaller ones texture.",
-        SISTER,
+        CLUSTERED_DIE,
         LEFT_PAIR,
         NEAR,
         MATERIAL | {"Lobe Width": 0.04},

@@ -40,6 +40,7 @@ from pathlib import Path
 from typing import Any
 
 from icwafer import toml_lines
+from icwafer.chips.presets import PRESETS
 from icwafer.errors import IcwaferError, SettingError
 from icwafer.study import fields
 from icwafer.toml_lines import Document, Place, nearest
@@ -304,10 +305,13 @@ def _assignment(
     except SettingError as error:
         raise Assignment(setting, value, document, place).error(str(error)) from None
     assignment = Assignment(setting, checked, document, place)
-    if setting in fields.FILES and checked:
+    if setting in fields.FILES and checked and not (
+        setting == fields.LAYOUT and checked in PRESETS
+    ):
         path = (folder / checked).resolve()
         if not path.is_file():
-            raise assignment.error(f"is {checked!r}: there is no file {path}")
+            ready = f", and {nearest(checked, PRESETS)}" if setting == fields.LAYOUT else ""
+            raise assignment.error(f"is {checked!r}: there is no file {path}{ready}")
         assignment = replace(assignment, value=str(path))
     return assignment
 

@@ -20,11 +20,16 @@ import math
 import sys
 import typing
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 from icwafer import paths
+from icwafer.chips.check import check_die
+from icwafer.chips.document import read_layout
+from icwafer.chips.model import BlockTable, DieSpec, Kind
+from icwafer.chips.presets import PRESETS
 from icwafer.chips.rules import Rule
-from icwafer.die import Spread
+from icwafer.chips.spread import Clustered, Normal, Spread, Uniform
 from icwafer.errors import SettingError
 from icwafer.pictures import PICTURES, Picture
 from icwafer.toml_lines import nearest
@@ -35,15 +40,21 @@ import make_manual  # noqa: E402
 #: The settings of one scene as JSON has them, in a fixed order.
 Scene = dict[str, Any]
 
-#: Settings that say where a scene comes from; they come before all others.
-PICTURE, BLEND = "picture", "blend"
+#: Settings that say where a scene, or its die, comes from; they come before all others.
+PICTURE, BLEND, LAYOUT = "picture", "blend", "layout"
+#: A scene has the file of a layout's blocks here, if the layout lists them one by one.
+BLOCKS = "die.blocks"
 #: Settings that name a file.
-FILES = (BLEND, "environment.image")
+FILES = (BLEND, LAYOUT, BLOCKS, "environment.image")
 #: Parts that a scene from a .blend file has; everything else of it is reached by `data.`.
 BLEND_PARTS = ("node", "data", "render", "view")
 
 #: What a random quantity may be; a file writes the fields of one of these, or only the mean.
-_SPREADS = (Spread,)
+_SPREADS = {
+    ("mean", "deviation"): Normal,
+    ("low", "high"): Uniform,
+    ("centres", "deviation"): Clustered,
+}
 
 _NODE_NAMES = {
     "model": ("CS348B", "PHYSICAL"),
@@ -74,8 +85,19 @@ def flatten(thing: Any, prefix: str = "") -> Scene:
 
 
 def picture_of(scene: Mapping[str, Any]) -> Picture:
-    """The picture whose settings these are: the inverse of `flatten`."""
-    return _build(Picture, _nested(scene) | {"caption": ""})
+    """The picture whose settings these are: the inverse of `flatten`.
+
+    Raises IcwaferError for a layout file that cannot be read.
+    """
+    tree = _nested(scene) | {"caption": ""}
+    file = scene.get(BLOCKS)
+    tree["die"]["blocks"] = _product(file).blocks if file else None
+    return _build(Picture, tree)
+
+
+def check_die_of(scene: Mapping[str, Any]) -> None:
+    """Raises IcwaferError where the settings of a scene's die do not make sense together."""
+    check_die(picture_of(scene).die)
 
 
 @functools.cache
@@ -86,6 +108,22 @@ def picture_settings(name: str) -> Scene:
     return scene
 
 
+@functools.cache
+def layout_settings(layout: str) -> Scene:
+    """The settings of a layout's first die, of a preset's or a file's; not to be changed.
+
+    Raises IcwaferError for a file that is no layout.
+    """
+    die = PRESETS[layout].dies[0] if layout in PRESETS else _product(layout)
+    blocks = {BLOCKS: layout} if die.blocks is not None else {}
+    return flatten(dataclasses.replace(die, blocks=None), "die.") | blocks
+
+
+@functools.cache
+def _product(file: str) -> DieSpec:
+    return read_layout(Path(file)).dies[0]
+
+
 def check(name: str, value: Any) -> Any:
     """The value of a setting as the scene stores it. Raises SettingError where it is not allowed.
 
@@ -93,7 +131,7 @@ def check(name: str, value: Any) -> Any:
     """
     if name == PICTURE:
         return _choice(value, tuple(PICTURES))
-    if name == BLEND:
+    if name in (BLEND, LAYOUT):
         return _text(value)
     part, _, rest = name.partition(".")
     if part == "node" and rest:
@@ -146,11 +184,14 @@ def expand(name: str, scene: Mapping[str, Any]) -> list[str]:
 
 def override(scene: Scene, name: str, value: Any) -> None:
     """Sets a checked value in a scene. Raises SettingError where the scene has no such setting."""
-    if name == "lights" and BLEND not in scene:
-        for old in [setting for setting in scene if setting.startswith("lights.")]:
+    if name in ("lights", LAYOUT) and BLEND not in scene:
+        part = "lights." if name == "lights" else "die."
+        for old in [setting for setting in scene if setting.startswith(part)]:
             del scene[old]
-        scene |= {f"lights.{number}.{key}": v for number, light in enumerate(value, 1)
-                  for key, v in light.items()}  # fmt: skip
+        if name == LAYOUT:
+            scene |= layout_settings(value)
+        for number, light in enumerate(value if name == "lights" else (), 1):
+            scene |= {f"lights.{number}.{key}": v for key, v in light.items()}
         return
     for setting in expand(name, scene):
         scene[setting] = value
@@ -179,11 +220,9 @@ def _nearest_setting(name: str, known: Iterable[str]) -> str:
 
 
 def _is_branch(value: Any) -> bool:
-    if isinstance(value, _SPREADS):
-        return False
     if isinstance(value, tuple):
         return any(dataclasses.is_dataclass(item) for item in value)
-    return dataclasses.is_dataclass(value) or isinstance(value, Mapping)
+    return isinstance(value, Mapping) or _is_tree(type(value))
 
 
 def _parts(thing: Any) -> Iterable[tuple[str, Any]]:
@@ -192,16 +231,23 @@ def _parts(thing: Any) -> Iterable[tuple[str, Any]]:
         return thing.items()
     if isinstance(thing, tuple):
         return [(getattr(item, "name", str(number)), item) for number, item in enumerate(thing, 1)]
-    # What has a name stands under it.
-    return [(f.name, getattr(thing, f.name)) for f in dataclasses.fields(thing) if f.name != "name"]
+    # What has a name stands under it; blocks one by one stay in their file.
+    names = [f.name for f in dataclasses.fields(thing) if f.name not in ("name", "blocks")]
+    return [(name, getattr(thing, name)) for name in names]
 
 
 def _as_json(value: Any) -> Any:
-    if isinstance(value, _SPREADS):
-        return dataclasses.asdict(value) if value.deviation else value.mean
+    if isinstance(value, Spread):
+        return value.mean if value == Normal(value.mean) else _spread_json(value)
     if isinstance(value, enum.Enum):
-        return value.name
+        return value.name.lower()
     return list(value) if isinstance(value, tuple) else value
+
+
+def _spread_json(spread: Spread) -> Scene:
+    names = next(names for names, kind in _SPREADS.items() if type(spread) is kind)
+    values = (getattr(spread, f.name) for f in dataclasses.fields(spread))
+    return {name: _as_json(value) for name, value in zip(names, values)}
 
 
 def _nested(scene: Mapping[str, Any]) -> dict[str, Any]:
@@ -231,22 +277,21 @@ def _build(kind: Any, value: Any) -> Any:
         )
     if kind is Spread:
         return _spread(value)
-    if isinstance(kind, type) and dataclasses.is_dataclass(kind):
+    if _is_tree(kind):
         hints = _hints(kind)
         return kind(**{name: _build(hints[name], part) for name, part in value.items()})
     if isinstance(kind, type) and issubclass(kind, enum.Enum):
-        return kind[value]
+        return kind[value.upper()]
     return tuple(value) if isinstance(value, list) else value
 
 
 def _spread(value: Any) -> Spread:
-    """From its mean or its fields. Raises TypeError for fields that no spread has."""
+    """From its mean or its fields. Raises KeyError for fields that no spread has."""
     if not isinstance(value, Mapping):
-        return _SPREADS[0](value)
-    for spread in _SPREADS:
-        if set(value) <= {f.name for f in dataclasses.fields(spread)}:
-            return spread(**{k: tuple(v) if isinstance(v, list) else v for k, v in value.items()})
-    raise TypeError
+        return Normal(value)
+    names = next((names for names in _SPREADS if {*value, "deviation"} >= {*names} >= {*value}), ())
+    fields = (value.get(name, 0.0) for name in names)
+    return _SPREADS[names](*(tuple(f) if isinstance(f, list) else f for f in fields))
 
 
 @functools.cache
@@ -275,7 +320,7 @@ def _declared(name: str) -> tuple[Any, Rule]:
             kind, (_, _, rest) = item, rest.rpartition(".")
         part, _, rest = rest.partition(".")
         fields = {f.name: f for f in dataclasses.fields(kind)} if _is_tree(kind) else {}
-        if part not in fields or part in ("caption", "name"):
+        if part not in fields or part in ("caption", "name", "blocks"):
             raise SettingError(f"is no setting: {_nearest_setting(name, rules())}")
         rule = fields[part].metadata.get("rule", Rule(""))
         kind = _hints(kind)[part]
@@ -285,7 +330,11 @@ def _declared(name: str) -> tuple[Any, Rule]:
 
 
 def _is_tree(kind: Any) -> bool:
-    return isinstance(kind, type) and dataclasses.is_dataclass(kind) and kind is not Spread
+    return (
+        isinstance(kind, type)
+        and dataclasses.is_dataclass(kind)
+        and not issubclass(kind, (Spread, BlockTable))
+    )
 
 
 def _checked(kind: Any, rule: Rule, value: Any) -> Any:
@@ -303,7 +352,7 @@ def _checked(kind: Any, rule: Rule, value: Any) -> Any:
     if kind in (int, float):
         return _number(kind, rule, value)
     if isinstance(kind, type) and issubclass(kind, enum.Enum):
-        return _choice(value, tuple(kind.__members__))
+        return _choice(value, tuple(name.lower() for name in kind.__members__))
     return _choice(value, rule.choices()) if rule.choices else _text(value)
 
 
@@ -319,21 +368,17 @@ def _number(kind: type, rule: Rule, value: Any) -> float:
 
 
 def _checked_spread(rule: Rule, value: Any) -> Any:
-    if isinstance(value, Mapping):
-        try:
-            spread = _spread(value)
-        except TypeError:
-            written = " or ".join(
-                "{" + ", ".join(f.name for f in dataclasses.fields(kind)) + "}" for kind in _SPREADS
-            )
-            raise SettingError(f"is {_shown(value)}: write a number or {written}") from None
-        for v in value.values():
-            for number in v if isinstance(v, list) else [v]:
-                if not isinstance(number, bool):
-                    _number(float, Rule(""), number)
-        _number(float, rule, spread.mean)
-        return _as_json(spread)
-    return _number(float, rule, value)
+    try:
+        spread = _spread(value)
+        numbers = [spread.low, spread.high, spread.deviation]
+        if not all(isinstance(number, (int, float)) for number in numbers):
+            raise TypeError
+    except (KeyError, TypeError, ZeroDivisionError):
+        written = " or ".join("{" + ", ".join(names) + "}" for names in _SPREADS)
+        raise SettingError(f"is {_shown(value)}: write a number or {written}") from None
+    for number in (spread.low, spread.high):
+        _number(float, rule, number)
+    return _as_json(spread)
 
 
 def _choice(value: Any, names: tuple[str, ...]) -> str:

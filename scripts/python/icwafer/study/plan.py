@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from icwafer.dependencies import file_hash, scripts_hash
-from icwafer.errors import SettingError
+from icwafer.errors import IcwaferError, SettingError
 from icwafer.study import fields
 from icwafer.study.document import Assignment, Step, Study
 from icwafer.toml_lines import nearest
@@ -79,11 +79,16 @@ def make(
     scene_of = _SceneMaker(study)
     jobs = []
     taken: set[str] = set()
+    dies: set[str] = set()  # those that are known to make sense
     for steps in itertools.product(*(axis.steps for axis in study.axes)):
         labels = {axis.name: step.label for axis, step in zip(study.axes, steps)}
         scene = scene_of(steps)
         identity = _identity(labels, taken)
         taken.add(identity)
+        die = json.dumps([item for item in scene.items() if item[0].startswith("die.")])
+        if die not in dies:
+            _check_die(study, identity, scene)
+            dies.add(die)
         jobs.append(Job(identity, labels, scene, _key(constants, scene, needs or {})))
     return Plan(study, tuple(jobs), _reference(study, jobs))
 
@@ -95,7 +100,7 @@ class _SceneMaker:
         self._common = study.scene
         self._swept = {a.setting for axis in study.axes for s in axis.steps for a in s.assignments}
         self._fixed: fields.Scene | None = None
-        if not self._swept & {fields.PICTURE, fields.BLEND, "lights"}:
+        if not self._swept & {fields.PICTURE, fields.BLEND, fields.LAYOUT, "lights"}:
             self._fixed = _scene(self._common)
 
     def __call__(self, steps: Iterable[Step]) -> fields.Scene:
@@ -108,18 +113,27 @@ class _SceneMaker:
 
 
 def _scene(assignments: tuple[Assignment, ...]) -> fields.Scene:
-    """First where the scene comes from, then its list of lights, then single settings."""
+    """First where the scene comes from, then its layout and list of lights, then single ones."""
     scene: fields.Scene = {}
     for a in assignments:
         if a.setting == fields.PICTURE:
             scene = dict(fields.picture_settings(a.value))
         elif a.setting == fields.BLEND:
             scene = {fields.BLEND: a.value}
-    whole = tuple(a for a in assignments if a.setting == "lights")
-    sources = (fields.PICTURE, fields.BLEND, "lights")
+    whole = tuple(a for a in assignments if a.setting in (fields.LAYOUT, "lights"))
+    sources = (fields.PICTURE, fields.BLEND, fields.LAYOUT, "lights")
     _apply(scene, whole)
     _apply(scene, tuple(a for a in assignments if a.setting not in sources))
     return scene
+
+
+def _check_die(study: Study, job: str, scene: fields.Scene) -> None:
+    if fields.BLEND in scene:
+        return
+    try:
+        fields.check_die_of(scene)
+    except IcwaferError as error:
+        raise IcwaferError(f"{study.document.path}: job {job}: {error}") from None
 
 
 def _apply(scene: fields.Scene, assignments: tuple[Assignment, ...]) -> None:
