@@ -99,9 +99,9 @@ def _orders(arguments: argparse.Namespace) -> Sequence[Order]:
         pairs = [(arguments.study, output or paths.OUT / "studies" / arguments.study.stem)]
     return [
         Order(
-            study,
-            folder,
-            Path(os.environ.get("ICWAFER_BLENDER") or paths.BLENDER),
+            study.resolve(),
+            folder.resolve(),
+            Path(os.environ.get("ICWAFER_BLENDER") or paths.BLENDER).resolve(),
             tuple(arguments.settings),
             tuple(arguments.only),
             arguments.jobs,

@@ -23,10 +23,11 @@ from icwafer.study.workers import Renderer
 
 @dataclass(frozen=True)
 class Order:
-    """An order to render a study.
+    """An order to render a study; all paths are absolute.
 
     settings: `SETTING=VALUE` words that replace what the study sets for all images. only: ids of
-    jobs, all if there is none. workers, isolate, timeout_s: see `Renderer`.
+    jobs, all if there is none. workers, isolate, timeout_s: see `Renderer`. threads: of each
+    worker; if that is not said, the workers share the machine's cores evenly.
     """
 
     study: Path
@@ -37,11 +38,12 @@ class Order:
     workers: int = 1
     isolate: bool = False
     timeout_s: float = 3600.0
+    threads: int | None = None
 
     @cached_property
     def renderer(self) -> Renderer:
-        """Blender as a worker; the machine's cores are shared out evenly."""
-        threads = max(1, len(os.sched_getaffinity(0)) // self.workers)
+        """Blender as a worker."""
+        threads = self.threads or max(1, len(os.sched_getaffinity(0)) // self.workers)
         command = [self.blender, "-b", "--factory-startup", "--disable-autoexec"]
         command += ["--threads", threads, "--python-exit-code", 1, "-P", plan.WORKER, "--"]
         return Renderer(tuple(map(str, command)), self.workers, self.isolate, self.timeout_s)
@@ -71,7 +73,7 @@ class Order:
 
     def command(self, *jobs: str) -> list[str]:
         """The words that render the study again, or some jobs of it."""
-        words = ["scripts/icwafer", "render", self.study.resolve(), "-o", self.folder.resolve()]
+        words = ["scripts/icwafer", "render", self.study, "-o", self.folder]
         for setting in self.settings:
             words += ["--set", setting]
         for job in jobs:

@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from icwafer.errors import IcwaferError
+from icwafer.files import replacing
 from icwafer.study.plan import Job
 
 IMAGES = ("image.exr", "image.png")
@@ -114,17 +115,8 @@ class Store:
 
     def write_study(self, facts: Mapping[str, Any]) -> None:
         """Writes `study.json`: complete or not at all."""
-        write_json(self.folder / "study.json", facts)
-
-
-def write_json(path: Path, value: Any) -> None:
-    """Writes a file beside its place and renames it."""
-    part = path.with_name(f"{_PART}{path.name}")
-    try:
-        part.write_text(f"{json.dumps(value, indent=1)}\n", encoding="utf-8")
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+        with replacing(self.folder / "study.json") as unfinished:
+            unfinished.write_text(f"{json.dumps(facts, indent=1)}\n", encoding="utf-8")
 
 
 def _size(path: Path) -> int:
