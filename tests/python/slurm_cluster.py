@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A real Slurm cluster on this machine, for a test: munged, slurmctld and two slurmd of one core.
 
-It needs Debian's packages munge, slurmctld, slurmd and slurm-client, and root, for munged runs as
-the user munge. Nothing outside its folder is touched, and ports are ones that are free.
+It needs Debian's packages munge, slurmctld, slurmd and slurm-client. Nothing outside its folder is
+touched, and its ports are ones that are free. Everything runs as the present user, but for munged,
+which does not like to be root.
 """
 
 from __future__ import annotations
 
 import contextlib
+import getpass
 import os
 import shutil
 import signal
@@ -19,7 +21,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 NODES = ("node1", "node2")
-DAEMONS = ("munged", "slurmctld", "slurmd")
 
 
 def wait_until(condition: Callable[[], bool], seconds: float, what: str) -> None:
@@ -52,7 +53,8 @@ class Cluster:
             "ClusterName": "test",
             "SlurmctldHost": f"{socket.gethostname()}(127.0.0.1)",
             "SlurmctldPort": ports[0],
-            "SlurmUser": "root",
+            "SlurmUser": getpass.getuser(),
+            "SlurmdUser": getpass.getuser(),
             "AuthInfo": f"socket={self.folder}/munge/socket",
             "StateSaveLocation": self.folder / "state",
             "SlurmdSpoolDir": f"{self.folder}/spool-%n",
@@ -118,11 +120,13 @@ class Cluster:
         key = folder / "key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o600)
-        for path in (folder, key):
-            shutil.chown(path, "munge", "munge")
+        user = "munge" if os.geteuid() == 0 else None
+        if user:
+            for path in (folder, key):
+                shutil.chown(path, user, user)
         names = ("key-file", "socket", "pid-file", "log-file", "seed-file")
         options = [f"--{name}={folder / name.removesuffix('-file')}" for name in names]
-        self._run("munged", "munged", "--foreground", *options, user="munge")
+        self._run("munged", "munged", "--foreground", *options, user=user)
         wait_until((folder / "socket").exists, 10, f"munged; its log is in {folder}")
 
     def _run(self, name: str, program: str, *arguments: str | Path, user: str | None = None) -> None:

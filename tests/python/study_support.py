@@ -26,8 +26,11 @@ def axis(name: str, setting: str, values: list[Any]) -> str:
 class StudyCase(unittest.TestCase):
     """Every test has an empty folder; its studies are rendered by the stand-in."""
 
+    #: Where the folder is; None for the usual place.
+    place: str | None = None
+
     def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
+        folder = tempfile.TemporaryDirectory(dir=self.place)
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         self.environment = {**os.environ, "ICWAFER_BLENDER": str(STAND_IN)}

@@ -15,8 +15,9 @@ from icwafer.errors import IcwaferError
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "test" the tests that start
-#: Blender.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "study"
+#: renders studies, "test" the tests that start
+#: Blender or a Slurm cluster.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -48,7 +49,17 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "libspnav-dev",
         "opencollada-dev",
     ),
-    "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
+    "study": ("python3-numpy", "python3-openimageio"),
+    "test": (
+        "blender",
+        "libgl1-mesa-dri",
+        "munge",
+        "slurm-client",
+        "slurmctld",
+        "slurmd",
+        "xauth",
+        "xvfb",
+    ),
 }
 
 

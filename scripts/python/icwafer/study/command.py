@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The command `icwafer render`."""
+"""The command `icwafer render`.
+
+What needs numpy or OpenImageIO is imported when it is used: a bare machine has neither.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +10,15 @@ import argparse
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from icwafer import paths
+from icwafer import packages, paths
 from icwafer.errors import IcwaferError
 from icwafer.progress import duration
-from icwafer.study import fields, run, slurm
-from icwafer.study.order import Order
+
+if TYPE_CHECKING:
+    from icwafer.study.order import Order
+    from icwafer.study.plan import Plan
 
 #: The studies that come with the project.
 STUDIES = paths.REPOSITORY / "scripts" / "studies"
@@ -22,7 +28,13 @@ SHOWN_JOBS = 20
 def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
     """Adds the command; `add(name, help)` makes its parser."""
     command = add("render", "render a study: one file that says which images, see the README")
-    command.add_argument("study", nargs="?", type=Path, metavar="STUDY.toml")
+    command.add_argument(
+        "study",
+        nargs="?",
+        type=Path,
+        metavar="STUDY.toml",
+        help="or an EXR file that a study has made, to render it again",
+    )
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results")
     command.add_argument(
         "--all",
@@ -76,16 +88,25 @@ def _count(text: str) -> int:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    packages.install("study")
     if arguments.list:
-        for name, rule in fields.rules().items():
-            allowed = rule.range if rule.low > -float("inf") else ""
-            print(f"{name:32}  {allowed:20}  {rule.help.split('. ')[0]}")
+        _list_settings()
         return 0
     orders = _orders(arguments)
     return max(_one(order, arguments) for order in orders)
 
 
+def _list_settings() -> None:
+    from icwafer.study import fields
+
+    for name, rule in fields.rules().items():
+        allowed = rule.range if rule.low > -float("inf") else ""
+        print(f"{name:34}  {allowed:20}  {rule.help.split('. ')[0]}")
+
+
 def _orders(arguments: argparse.Namespace) -> Sequence[Order]:
+    from icwafer.study.order import Order
+
     if arguments.all == bool(arguments.study):
         raise IcwaferError("name one study, or --all; see scripts/icwafer render --help")
     output = arguments.output
@@ -113,6 +134,8 @@ def _orders(arguments: argparse.Namespace) -> Sequence[Order]:
 
 
 def _one(order: Order, arguments: argparse.Namespace) -> int:
+    from icwafer.study import run, slurm
+
     made = run.prepare(order)
     if arguments.dry_run:
         run.judge(order, made)
@@ -132,7 +155,9 @@ def _one(order: Order, arguments: argparse.Namespace) -> int:
     return 1 if summary.failed else 0
 
 
-def _describe(order: Order, made: run.Plan) -> None:
+def _describe(order: Order, made: Plan) -> None:
+    from icwafer.study import run
+
     jobs = run.missing(order, made)
     for job in jobs[:SHOWN_JOBS]:
         print(job.id)

@@ -20,9 +20,9 @@ from typing import Any
 
 from icwafer.dependencies import file_hash, scripts_hash
 from icwafer.errors import IcwaferError, SettingError
-from icwafer.study import fields
-from icwafer.study.document import Assignment, Step, Study
-from icwafer.toml_lines import nearest
+from icwafer.study import fields, image_file
+from icwafer.study.document import Assignment, Axis, Step, Study, overridden
+from icwafer.toml_lines import Document, nearest
 
 #: Raised when the same inputs would give another image, or a result's files another form.
 FORMAT = 1
@@ -75,7 +75,7 @@ def make(
         count *= len(axis.steps)
     if count > MAX_JOBS:
         raise study.scene[0].error(f"and the axes make {count} jobs: allowed are {MAX_JOBS}")
-    constants = f"{FORMAT} {program} {scripts_hash(WORKER)}"
+    constants = _constants(program)
     scene_of = _SceneMaker(study)
     jobs = []
     taken: set[str] = set()
@@ -91,6 +91,11 @@ def make(
             dies.add(die)
         jobs.append(Job(identity, labels, scene, _key(constants, scene, needs or {})))
     return Plan(study, tuple(jobs), _reference(study, jobs))
+
+
+def _constants(program: str) -> str:
+    """What all keys have in common."""
+    return f"{FORMAT} {program} {scripts_hash(WORKER)}"
 
 
 class _SceneMaker:
@@ -153,6 +158,30 @@ def _key(constants: str, scene: fields.Scene, needs: Mapping[str, Sequence[str]]
     ordered += sorted(item for item in scene.items() if item[0].startswith(free))
     settings = [(k, content[v] if k in fields.FILES and v else v) for k, v in ordered]
     return hashlib.sha256(f"{constants} {json.dumps(settings)}".encode()).hexdigest()
+
+
+def of_image(image: Path, settings: Sequence[str], program: str) -> Plan:
+    """The plan with the one job that an EXR file was made by, as its metadata tells.
+
+    settings: `SETTING=VALUE` words to replace some. Raises IcwaferError where the file has no such
+    metadata, or settings in it that are not allowed.
+    """
+    noted = image_file.attributes(image)
+    try:
+        labels, given = json.loads(noted["settings"]), json.loads(noted["scene"])
+        scene = {name: fields.check(name, value) for name, value in given.items()}
+    except KeyError:
+        raise IcwaferError(f"{image}: has no settings in it; name an EXR of a study") from None
+    except (SettingError, ValueError, AttributeError) as error:
+        raise IcwaferError(f"{image}: its settings make no sense: {error}") from None
+    axes = tuple(Axis(name, "", (Step(label, ()),)) for name, label in labels.items())
+    study = Study(noted["study"], "", (), axes, None, Document(image, {}, {}))
+    study = overridden(study, list(settings))
+    _apply(scene, study.scene)
+    _check_die(study, noted["job"], scene)
+    key = _key(_constants(program), scene, {})
+    identity = "_".join(map(_slug, noted["job"].split("_")))[:MAX_ID]
+    return Plan(study, (Job(identity, labels, scene, key),), None)
 
 
 def _expect_one_axis_each(study: Study) -> None:

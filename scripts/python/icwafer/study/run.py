@@ -45,9 +45,11 @@ def prepare(order: Order) -> Plan:
     Raises IcwaferError for anything that is wrong with the study. What only Blender knows (the
     names that its build has, and what is in a .blend file) it is asked for.
     """
-    study = document.overridden(document.read(order.study), list(order.settings))
-    needs = _needs(study, order)
-    made = plan.make(study, order.key, needs)
+    if order.study.suffix == ".exr":
+        made = plan.of_image(order.study, order.settings, order.key)
+    else:
+        study = document.overridden(document.read(order.study), list(order.settings))
+        made = plan.make(study, order.key, _needs(study, order))
     for wanted in order.only:
         known = [job.id for job in made.jobs]
         if wanted not in known:

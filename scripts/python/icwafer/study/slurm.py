@@ -202,5 +202,5 @@ def _slurm(*command: str, given: str | None = None) -> str:
     done = subprocess.run(command, input=given, capture_output=True, text=True)
     if done.returncode != 0 and command[0] != "scancel":
         reason = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        raise IcwaferError(f"{command[0]}: {reason}")
+        raise IcwaferError(f"{command[0]}: {reason.removeprefix(f'{command[0]}: error: ')}")
     return done.stdout.strip()
