@@ -149,7 +149,7 @@ class CrashTest(StudyCase):
     def test_a_renderer_that_does_not_start(self) -> None:
         broken = write(self.folder / "blender", "#!/bin/sh\necho Error: no libfoo; exit 3\n", 0o755)
         for path, words in (
-            (broken, "the renderer ended with status 3: Error: no libfoo"),
+            (broken, "blender does not start: Error: no libfoo; scripts/icwafer doctor"),
             (self.folder / "nothing", "there is no Blender at"),
         ):
             self.environment["ICWAFER_BLENDER"] = str(path)

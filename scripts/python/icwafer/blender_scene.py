@@ -66,12 +66,17 @@ def check(picture: Picture) -> None:
     set_view(scene, picture.view)
 
 
-def _empty_scene() -> bpy.types.Scene:
+def expect_node() -> None:
+    """Raises IcwaferError in a Blender without the node."""
     if not hasattr(bpy.types, NODE):
         raise IcwaferError(
             "this Blender has no IC Wafer BSDF node: build one that has, "
             "with scripts/icwafer build blender"
         )
+
+
+def _empty_scene() -> bpy.types.Scene:
+    expect_node()
     bpy.ops.wm.read_factory_settings(use_empty=True)
     return bpy.context.scene
 

@@ -15,9 +15,8 @@ from icwafer.errors import IcwaferError
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "study"
-#: renders studies, "test" the tests that start
-#: Blender or a Slurm cluster.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "study" renders studies,
+#: "test" are the tests that start Blender or a Slurm cluster.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (

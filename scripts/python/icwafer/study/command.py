@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -93,7 +94,9 @@ def _run(arguments: argparse.Namespace) -> int:
         _list_settings()
         return 0
     orders = _orders(arguments)
-    return max(_one(order, arguments) for order in orders)
+    if len(orders) == 1:
+        return _one(orders[0], arguments)
+    return max([_one_of_all(order, arguments) for order in orders])
 
 
 def _list_settings() -> None:
@@ -112,8 +115,7 @@ def _orders(arguments: argparse.Namespace) -> Sequence[Order]:
     output = arguments.output
     if arguments.all:
         folder = output or paths.OUT / "studies"
-        found = sorted(STUDIES.glob("*.toml"))
-        pairs = [(study, folder / study.stem) for study in found if "base" not in study.stem]
+        pairs = [(study, folder / study.stem) for study in sorted(STUDIES.glob("*.toml"))]
     elif output is None and not arguments.dry_run:
         raise IcwaferError("say where the results go: -o DIR")
     else:
@@ -131,6 +133,15 @@ def _orders(arguments: argparse.Namespace) -> Sequence[Order]:
         )
         for study, folder in pairs
     ]
+
+
+def _one_of_all(order: Order, arguments: argparse.Namespace) -> int:
+    """A study that is not possible does not keep the others from being rendered."""
+    try:
+        return _one(order, arguments)
+    except IcwaferError as error:
+        print(f"icwafer: {error}", file=sys.stderr)
+        return 1
 
 
 def _one(order: Order, arguments: argparse.Namespace) -> int:

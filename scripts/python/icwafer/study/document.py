@@ -22,7 +22,7 @@
     [[axis]]                        # a list: each case sets what it likes
     name = "lamp"
     [[axis.case]]
-    name = "small"
+    name = "small"                  # or a number
     scene.lights.1.radius_mm = 0.1
     [[axis.case]]
     name = "large"
@@ -200,7 +200,9 @@ def _cases(document: Document, place: Place) -> tuple[Step, ...]:
     for number, case in enumerate(table["case"]):
         here: Place = (*place, "case", number)
         _expect_keys(document, here, case, ("name", "scene"))
-        label = _text(document, here, "name")
+        label = case.get("name")
+        if isinstance(label, bool) or not isinstance(label, (int, float, str)) or label == "":
+            raise document.error(here, "has no name: give it a text or a number")
         if label in (step.label for step in steps):
             raise document.error((*here, "name"), f"is {label!r} a second time")
         scene = _table(document, here, "scene")

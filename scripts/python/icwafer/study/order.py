@@ -7,6 +7,7 @@ import json
 import os
 import platform
 import shlex
+import subprocess
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,6 +17,7 @@ from typing import Any
 from icwafer import paths
 from icwafer.dependencies import file_hash, scripts_hash
 from icwafer.errors import IcwaferError
+from icwafer.progress import first_error
 from icwafer.study import plan
 from icwafer.study.plan import Job
 from icwafer.study.workers import Renderer
@@ -68,8 +70,24 @@ class Order:
 
     @cached_property
     def versions(self) -> Mapping[str, str]:
-        """What took part; nothing in it changes from one run to the next."""
-        return {**self.program, "python": platform.python_version(), "study_format": plan.FORMAT}
+        """What takes part. Raises IcwaferError where Blender does not start."""
+        try:
+            done = subprocess.run(
+                [self.blender, "--version"], capture_output=True, text=True, timeout=60
+            )
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise IcwaferError(f"{self.blender} does not start: {error}") from None
+        if done.returncode != 0:
+            reason = first_error(done.stdout + done.stderr)
+            raise IcwaferError(
+                f"{self.blender} does not start: {reason}; scripts/icwafer doctor checks it"
+            )
+        return {
+            "blender": done.stdout.splitlines()[0].removeprefix("Blender "),
+            **self.program,
+            "python": platform.python_version(),
+            "study_format": plan.FORMAT,
+        }
 
     def command(self, *jobs: str) -> list[str]:
         """The words that render the study again, or some jobs of it."""

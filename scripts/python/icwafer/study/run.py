@@ -108,6 +108,8 @@ def judge(order: Order, made: Plan) -> None:
     Raises IcwaferError that names the line of the one that it refuses.
     """
     tried = _to_be_tried(made)
+    if not tried:
+        return
     requests = [{"do": "check", "scene": job.scene} for job in tried]
     replies = iter(ask(order.renderer, requests))
     next(replies)
@@ -195,15 +197,18 @@ def _is_judged(assignment: Assignment) -> bool:
 
 
 def _to_be_tried(made: Plan) -> list[Job]:
-    """The first job, one for each step that Blender has to judge, one for each axis else."""
+    """The first job, if Blender has to judge what all have in common, and the first job of each
+    step that it has to judge."""
     first: dict[tuple[str, str], Job] = {}
     for job in made.jobs:
         for axis, label in job.labels.items():
             first.setdefault((axis, str(label)), job)
-    tried = {made.jobs[0].id: made.jobs[0]}
+    tried: dict[str, Job] = {}
+    if any(map(_is_judged, made.study.scene)):
+        tried[made.jobs[0].id] = made.jobs[0]
     for axis in made.study.axes:
-        for number, step in enumerate(axis.steps):
-            if number == 0 or any(map(_is_judged, step.assignments)):
+        for step in axis.steps:
+            if any(map(_is_judged, step.assignments)):
                 job = first[axis.name, str(step.label)]
                 tried[job.id] = job
     return list(tried.values())

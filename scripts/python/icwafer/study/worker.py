@@ -34,8 +34,9 @@ _FATAL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, er
 
 
 def main(replies: int) -> None:
-    """Serves requests until the input ends."""
+    """Serves requests until the input ends. Raises IcwaferError in a Blender without the node."""
     _end_with_parent()
+    blender_scene.expect_node()
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # a limit on files is an error, not a crash
     with os.fdopen(replies, "w") as answer:
 
@@ -138,4 +139,8 @@ def _log(path: Path) -> Iterator[None]:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[sys.argv.index("--") + 1]))
+    try:
+        main(int(sys.argv[sys.argv.index("--") + 1]))
+    except IcwaferError as error:
+        print(f"icwafer: {error}", file=sys.stderr)
+        sys.exit(1)
