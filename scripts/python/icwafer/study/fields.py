@@ -89,7 +89,7 @@ def picture_of(scene: Mapping[str, Any]) -> Picture:
 
     Raises IcwaferError for a layout file that cannot be read.
     """
-    tree = _nested(scene) | {"caption": ""}
+    tree = {"caption": "", "lights": {}} | _nested(scene)
     file = scene.get(BLOCKS)
     tree["die"]["blocks"] = _product(file).blocks if file else None
     return _build(Picture, tree)
