@@ -18,7 +18,8 @@ from icwafer import paths
 from icwafer.dependencies import file_hash, scripts_hash
 from icwafer.errors import IcwaferError
 from icwafer.progress import first_error
-from icwafer.study import plan
+from icwafer.study import fields, keys
+from icwafer.study.grating import gratings
 from icwafer.study.plan import Job
 from icwafer.study.workers import Renderer
 
@@ -47,7 +48,7 @@ class Order:
         """Blender as a worker."""
         threads = self.threads or max(1, len(os.sched_getaffinity(0)) // self.workers)
         command = [self.blender, "-b", "--factory-startup", "--disable-autoexec"]
-        command += ["--threads", threads, "--python-exit-code", 1, "-P", plan.WORKER, "--"]
+        command += ["--threads", threads, "--python-exit-code", 1, "-P", keys.WORKER, "--"]
         return Renderer(tuple(map(str, command)), self.workers, self.isolate, self.timeout_s)
 
     @cached_property
@@ -60,7 +61,7 @@ class Order:
         return {
             "node_build": file_hash(self.blender),
             "colour_config": _hash_if_there(_colour_config(self.blender)),
-            "scripts": scripts_hash(plan.WORKER),
+            "scripts": scripts_hash(keys.WORKER),
         }
 
     @cached_property
@@ -86,7 +87,7 @@ class Order:
             "blender": done.stdout.splitlines()[0].removeprefix("Blender "),
             **self.program,
             "python": platform.python_version(),
-            "study_format": plan.FORMAT,
+            "study_format": keys.FORMAT,
         }
 
     def command(self, *jobs: str) -> list[str]:
@@ -114,12 +115,14 @@ class Order:
 
     def facts(self, job: Job) -> dict[str, Any]:
         """What a job's `job.json` says, besides how it went."""
+        from_file = fields.BLEND in job.scene
         return {
             "id": job.id,
             "settings": dict(job.labels),
             "key": job.key,
             "command": self.command(job.id),
             "scene": job.scene,
+            "grating": [] if from_file else gratings(fields.picture_of(job.scene)),
         }
 
 

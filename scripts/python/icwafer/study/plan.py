@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A study becomes jobs: one image each, with all settings and a key of all that it depends on.
+"""A study becomes jobs: one image each, with all its settings and a key of all that it depends on.
 
-The key is a SHA-256 over the settings of the scene, the content of the files that they name, the
-scripts that build the scene, and the program that renders it. Nothing else of the study enters,
-so that a new description, or one more value of an axis, leaves the other images as they are.
+Nothing else of the study enters the key, so that a new description, or one more value of an axis,
+leaves the other images as they are.
 """
 
 from __future__ import annotations
@@ -18,18 +17,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from icwafer.dependencies import file_hash, scripts_hash
 from icwafer.errors import IcwaferError, SettingError
 from icwafer.study import fields, image_file
 from icwafer.study.document import Assignment, Axis, Step, Study, overridden
+from icwafer.study.keys import Keys
 from icwafer.toml_lines import Document, nearest
 
-#: Raised when the same inputs would give another image, or a result's files another form.
-FORMAT = 1
 MAX_JOBS = 1_000_000
 MAX_ID = 120
-
-WORKER = Path(__file__).with_name("worker.py")
 
 
 @dataclass(frozen=True)
@@ -75,27 +70,23 @@ def make(
         count *= len(axis.steps)
     if count > MAX_JOBS:
         raise study.scene[0].error(f"and the axes make {count} jobs: allowed are {MAX_JOBS}")
-    constants = _constants(program)
-    scene_of = _SceneMaker(study)
+    keys, scene_of = Keys(program, needs or {}), _SceneMaker(study)
     jobs = []
     taken: set[str] = set()
     dies: set[str] = set()  # those that are known to make sense
+    die = ""
     for steps in itertools.product(*(axis.steps for axis in study.axes)):
         labels = {axis.name: step.label for axis, step in zip(study.axes, steps)}
         scene = scene_of(steps)
         identity = _identity(labels, taken)
         taken.add(identity)
-        die = json.dumps([item for item in scene.items() if item[0].startswith("die.")])
+        if not (die and scene_of.has_one_die):
+            die = keys.die(scene)
         if die not in dies:
             _check_die(study, identity, scene)
             dies.add(die)
-        jobs.append(Job(identity, labels, scene, _key(constants, scene, needs or {})))
+        jobs.append(Job(identity, labels, scene, keys.of(scene, die)))
     return Plan(study, tuple(jobs), _reference(study, jobs))
-
-
-def _constants(program: str) -> str:
-    """What all keys have in common."""
-    return f"{FORMAT} {program} {scripts_hash(WORKER)}"
 
 
 class _SceneMaker:
@@ -107,6 +98,10 @@ class _SceneMaker:
         self._fixed: fields.Scene | None = None
         if not self._swept & {fields.PICTURE, fields.BLEND, fields.LAYOUT, "lights"}:
             self._fixed = _scene(self._common)
+        #: Whether all scenes have the same die.
+        self.has_one_die = self._fixed is not None and not any(
+            setting.startswith("die.") for setting in self._swept
+        )
 
     def __call__(self, steps: Iterable[Step]) -> fields.Scene:
         own = tuple(a for step in steps for a in step.assignments)
@@ -149,17 +144,6 @@ def _apply(scene: fields.Scene, assignments: tuple[Assignment, ...]) -> None:
             raise assignment.error(str(error)) from None
 
 
-def _key(constants: str, scene: fields.Scene, needs: Mapping[str, Sequence[str]]) -> str:
-    named = [scene[name] for name in fields.FILES if scene.get(name)]
-    content = {path: [file_hash(Path(p)) for p in (path, *needs.get(path, ()))] for path in named}
-    # The order of groups matters to a die; the order in which a study names sockets never does.
-    free = ("node.", "data.")
-    ordered = [item for item in scene.items() if not item[0].startswith(free)]
-    ordered += sorted(item for item in scene.items() if item[0].startswith(free))
-    settings = [(k, content[v] if k in fields.FILES and v else v) for k, v in ordered]
-    return hashlib.sha256(f"{constants} {json.dumps(settings)}".encode()).hexdigest()
-
-
 def of_image(image: Path, settings: Sequence[str], program: str) -> Plan:
     """The plan with the one job that an EXR file was made by, as its metadata tells.
 
@@ -179,7 +163,7 @@ def of_image(image: Path, settings: Sequence[str], program: str) -> Plan:
     study = overridden(study, list(settings))
     _apply(scene, study.scene)
     _check_die(study, noted["job"], scene)
-    key = _key(_constants(program), scene, {})
+    key = Keys(program, {}).of(scene)
     identity = "_".join(map(_slug, noted["job"].split("_")))[:MAX_ID]
     return Plan(study, (Job(identity, labels, scene, key),), None)
 

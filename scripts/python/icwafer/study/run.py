@@ -75,6 +75,8 @@ def render(order: Order, made: Plan, engine: Engine) -> Summary:
     """
     store = Store(order.folder)
     with store.locked():
+        store.expect_study(order.study.name)
+        store.arrange(made.jobs)
         jobs = missing(order, made)
         if jobs:
             judge(order, made)
@@ -236,6 +238,7 @@ def _write_study(store: Store, order: Order, made: Plan) -> None:
     store.write_study(
         {
             "name": study.name,
+            "source": order.study.name,
             "description": study.description,
             "axes": list(axes),
             "reference": made.reference,

@@ -7,6 +7,8 @@
     jobs/ID/log.txt          what Blender wrote
     jobs/ID/job.json         settings, key, time, status, error, command
 
+Results of an earlier version of the study that it no longer asks for are put aside in `unused/`.
+
 A job's folder appears by renaming, so it is there complete or not at all; `job.json` has the sizes
 of the files beside it, so that a file cut off by a power failure is noticed, too. What is still
 being made has a name that begins with a point.
@@ -18,7 +20,7 @@ import fcntl
 import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -60,6 +62,19 @@ class Store:
                     "choose another one"
                 ) from None
             yield
+
+    def arrange(self, jobs: Sequence[Job]) -> None:
+        """Puts results that no job asks for aside, and takes back those that one asks for again."""
+        aside = self.folder / "unused"
+        wanted = {job.id for job in jobs}
+        for path in list(self.jobs.iterdir()):
+            if path.name not in wanted and not path.name.startswith("."):
+                aside.mkdir(exist_ok=True)
+                shutil.rmtree(aside / path.name, ignore_errors=True)
+                path.rename(aside / path.name)
+        for path in list(aside.iterdir()) if aside.is_dir() else ():
+            if path.name in wanted and not (self.jobs / path.name).exists():
+                path.rename(self.jobs / path.name)
 
     def clean(self) -> None:
         """Removes what an earlier run left unfinished."""
@@ -112,6 +127,19 @@ class Store:
             final.rename(old)
         part.rename(final)
         shutil.rmtree(old, ignore_errors=True)
+
+    def expect_study(self, source: str) -> None:
+        """Raises IcwaferError where the folder holds the results of another study file."""
+        path = self.folder / "study.json"
+        try:
+            held = json.loads(path.read_bytes())["source"]
+        except (OSError, ValueError, KeyError, TypeError):
+            return
+        if held != source:
+            raise IcwaferError(
+                f"{self.folder}: holds the results of {held}; choose another folder for {source}, "
+                f"or remove {path} to have them replaced"
+            )
 
     def write_study(self, facts: Mapping[str, Any]) -> None:
         """Writes `study.json`: complete or not at all."""
