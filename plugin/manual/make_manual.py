@@ -20,13 +20,17 @@ TEMPLATE = HERE / "ic_wafer_bsdf.template.html"
 PAGE = HERE / "ic_wafer_bsdf.html"
 
 _ROW = re.compile(
-    r'X\((\w+), "([^"]+)", ([-\d.]+)f, ([-\d.]+)f, ([-\d.]+)f, (\w+),\s*(".*")\)\s*', re.DOTALL
+    r'X\((\w+), "([^"]+)", ([-\d.]+)f, ([-\d.]+)f, ([-\d.]+)f, (\w+), (\w+),\s*(".*")\)\s*',
+    re.DOTALL,
 )
 
 
 @dataclass(frozen=True)
 class FloatInput:
-    """One float input of the node. `kind` is NONE, FACTOR or ANGLE (radian)."""
+    """One float input of the node.
+
+    `kind` is NONE, FACTOR or ANGLE (radian); `model` the one that has it, or BOTH.
+    """
 
     identifier: str
     name: str
@@ -34,6 +38,7 @@ class FloatInput:
     minimum: float
     maximum: float
     kind: str
+    model: str
     tooltip: str
 
 
@@ -49,9 +54,9 @@ def float_inputs() -> list[FloatInput]:
         match = _ROW.fullmatch(row)
         if match is None:
             raise SystemExit(f"{TABLE}: cannot read this row of the table: {row.strip()[:60]}")
-        identifier, name, initial, minimum, maximum, kind, tooltip = match.groups()
+        identifier, name, initial, minimum, maximum, kind, model, tooltip = match.groups()
         inputs.append(FloatInput(
-            identifier, name, float(initial), float(minimum), float(maximum), kind,
+            identifier, name, float(initial), float(minimum), float(maximum), kind, model,
             "".join(re.findall(r'"([^"]*)"', tooltip)),
         ))
     return inputs
@@ -62,17 +67,27 @@ def _row(name: str, initial: str, meaning: str) -> str:
     return "<tr>" + "".join(cells)
 
 
+def _rows(model: str) -> str:
+    """The table rows of the inputs that only this model has, or of those that both have."""
+    return "\n".join(
+        _row(i.name, f"{i.initial:g}", i.tooltip) for i in float_inputs() if i.model == model
+    )
+
+
 def page_text() -> str:
     """The whole page."""
-    rows = [_row("Color", "white", "Tint of everything that is reflected. White: the colours of "
-                                   "physics")]
-    rows += [_row(i.name, f"{i.initial:g}", i.tooltip) for i in float_inputs()]
-    rows += [
+    color = _row("Color", "white", "Tint of everything that is reflected. White: the colours of "
+                                   "physics")
+    frame = [
         _row("Normal", "–", "Direction of the surface; the geometry's own where nothing is linked"),
         _row("Tangent", "–", "Direction from which Direction is counted; the object's X axis where "
                              "nothing is linked"),
     ]
-    return string.Template(TEMPLATE.read_text()).substitute(inputs="\n".join(rows))
+    return string.Template(TEMPLATE.read_text()).substitute(
+        both="\n".join([color, _rows("BOTH"), *frame]),
+        physical=_rows("PHYSICAL"),
+        cs348b=_rows("CS348B"),
+    )
 
 
 def main() -> int:

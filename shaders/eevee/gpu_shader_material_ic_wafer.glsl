@@ -15,10 +15,19 @@ void node_bsdf_ic_wafer(vec4 color,
                         float diffuse,
                         float lobe_width,
                         float anisotropy,
+                        float groove_depth,
+                        float cross_spacing,
+                        float cross_width,
+                        float spacing_variation,
+                        float coherence_width,
+                        float roughness,
+                        vec3 metal_n,
+                        vec3 metal_k,
                         vec3 N,
                         vec3 T,
                         float weight,
                         const float use_thin_film,
+                        const vec3 metal_color,
                         out Closure result)
 {
   N = safe_normalize(N);
@@ -31,8 +40,15 @@ void node_bsdf_ic_wafer(vec4 color,
     film = fringe * fringe;
   }
 
+  /* The CS348B model has no metal; the PHYSICAL one neither diffuse nor specular part. */
+  bool physical = metal_color.g > 0.0;
+  if (physical) {
+    specular_roughness = roughness;
+    diffuse = 0.0;
+  }
+  vec3 part = physical ? metal_color * (0.4 + 0.6 * film) : specular + diffraction * film;
   vec2 split_sum = brdf_lut(NV, specular_roughness);
-  vec3 reflectance = clamp(color.rgb * (specular + diffraction * film), vec3(0.0), vec3(1.0));
+  vec3 reflectance = clamp(color.rgb * part, vec3(0.0), vec3(1.0));
 
   ClosureReflection reflection_data;
   reflection_data.weight = weight;

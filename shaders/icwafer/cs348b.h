@@ -113,9 +113,9 @@ struct Cs348bFactor {
 
 /* c_a f_IW f_IB f_DW, integrated over the spectrum. Not multiplied by the cosine, nor by R. */
 template<typename Sensitivity>
-ICW_DEVICE Rgb cs348b_eval(const Cs348bParams &p,
-                           const GratingGeometry &g,
-                           const Sensitivity &sensitivity)
+ICW_DEVICE_LARGE Rgb cs348b_eval(const Cs348bParams &p,
+                                 const GratingGeometry &g,
+                                 const Sensitivity &sensitivity)
 {
   const float u = fabsf(g.u);
   Cs348bFactor factor;

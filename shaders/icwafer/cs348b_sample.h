@@ -165,7 +165,7 @@ ICW_DEVICE float along_pdf(const float exponent,
 
 /* The normalisation of the density of u for one view, w_o . nu = view_u. It is also an estimate of
  * the power that is reflected, per unit of t, for R = 1. */
-ICW_DEVICE float cs348b_total_power(const Cs348bParams &p, const float view_u)
+ICW_DEVICE_LARGE float cs348b_total_power(const Cs348bParams &p, const float view_u)
 {
   using namespace cs348b_detail;
   const Lobe central = central_lobe(p);
@@ -184,10 +184,10 @@ ICW_DEVICE float cs348b_total_power(const Cs348bParams &p, const float view_u)
 }
 
 /* Density of the sampled direction i over solid angle. */
-ICW_DEVICE float cs348b_pdf(const Cs348bParams &p,
-                            const float total_power,
-                            const LocalDirection o,
-                            const LocalDirection i)
+ICW_DEVICE_LARGE float cs348b_pdf(const Cs348bParams &p,
+                                  const float total_power,
+                                  const LocalDirection o,
+                                  const LocalDirection i)
 {
   using namespace cs348b_detail;
   const float u = i.nu + o.nu;
@@ -211,11 +211,11 @@ ICW_DEVICE float cs348b_pdf(const Cs348bParams &p,
 }
 
 /* A direction for the view o from two random numbers in [0, 1). i.n = 0 where there is none. */
-ICW_DEVICE LocalDirection cs348b_sample(const Cs348bParams &p,
-                                        const float total_power,
-                                        const LocalDirection o,
-                                        const float random_across,
-                                        const float random_along)
+ICW_DEVICE_LARGE LocalDirection cs348b_sample(const Cs348bParams &p,
+                                              const float total_power,
+                                              const LocalDirection o,
+                                              const float random_across,
+                                              const float random_along)
 {
   using namespace cs348b_detail;
 

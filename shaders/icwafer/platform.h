@@ -8,10 +8,21 @@
 #ifdef ccl_device_inline
 #  define ICW_DEVICE ccl_device_inline
 #  define ICW_DEVICE_METHOD ccl_device_inline_method
+/* Functions that are kept as one: a kernel that has them inlined at every call takes long to
+ * compile, and on a GPU many registers. */
+#  ifdef __KERNEL_GPU__
+#    define ICW_DEVICE_LARGE ccl_device_noinline
+#    define ICW_DEVICE_LARGE_METHOD ccl_device_noinline
+#  else
+#    define ICW_DEVICE_LARGE static ccl_never_inline
+#    define ICW_DEVICE_LARGE_METHOD ccl_never_inline
+#  endif
 #else
 #  include <cmath>
 #  define ICW_DEVICE inline
 #  define ICW_DEVICE_METHOD inline
+#  define ICW_DEVICE_LARGE inline
+#  define ICW_DEVICE_LARGE_METHOD inline
 #endif
 
 namespace icwafer {
@@ -23,6 +34,17 @@ constexpr float two_pi = 6.28318530717959f;
 ICW_DEVICE float clamped(const float x, const float low, const float high)
 {
   return x > low ? (x < high ? x : high) : low;
+}
+
+/* Without the library's care for NaN, which costs a call. */
+ICW_DEVICE float larger(const float a, const float b)
+{
+  return a > b ? a : b;
+}
+
+ICW_DEVICE float smaller(const float a, const float b)
+{
+  return a < b ? a : b;
 }
 
 ICW_DEVICE float square(const float x)

@@ -36,7 +36,7 @@ def scene(mount: Mount) -> str:
 <background><background name="world" strength="0"/>
   <connect from="world background" to="output surface"/></background>
 <shader name="wafer">
-  <ic_wafer_bsdf name="chip" wire_spacing="{_numbers(mount.spacing_nm)}"
+  <ic_wafer_bsdf name="chip" model="CS348B" wire_spacing="{_numbers(mount.spacing_nm)}"
                  direction="{_numbers(math.radians(mount.direction_deg))}"
                  lobe_width="{_numbers(mount.lobe_width)}" specular="0"
                  use_thin_film="false" use_wire_diffraction="false"/>

@@ -72,6 +72,7 @@ material.use_nodes = True
 tree = material.node_tree
 tree.nodes.clear()
 node = tree.nodes.new("ShaderNodeBsdfICWafer")
+node.model = "CS348B"
 output = tree.nodes.new("ShaderNodeOutputMaterial")
 tree.links.new(node.outputs[0], output.inputs["Surface"])
 lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))

@@ -13,25 +13,60 @@ import host
 import numpy as np
 import pixels
 
-# Name, type and default of each input, in order.
-INPUTS: tuple[tuple[str, str, Any], ...] = (
+# Name, type and default of each input that a model shows, in order. PHYSICAL: with a metal and an
+# oxide of the artist's own.
+WIRES: tuple[tuple[str, str, Any], ...] = (
     ("Color", "RGBA", [1.0, 1.0, 1.0, 1.0]),
     ("Wire Spacing", "VALUE", 1000.0),
     ("Wire Width", "VALUE", 250.0),
     ("Oxide Thickness", "VALUE", 530.0),
     ("Oxide IOR", "VALUE", 1.544),
     ("Direction", "VALUE", 0.0),
-    ("Diffraction", "VALUE", 0.5),
-    ("Specular", "VALUE", 0.3),
-    ("Specular Roughness", "VALUE", None),
-    ("Diffuse", "VALUE", 0.0),
-    ("Lobe Width", "VALUE", None),
-    ("Anisotropy", "VALUE", 0.0),
+)
+FRAME: tuple[tuple[str, str, Any], ...] = (
     ("Normal", "VECTOR", None),
     ("Tangent", "VECTOR", None),
 )
+INPUTS: dict[str, tuple[tuple[str, str, Any], ...]] = {
+    "CS348B": (
+        *WIRES,
+        ("Diffraction", "VALUE", 0.5),
+        ("Specular", "VALUE", 0.3),
+        ("Specular Roughness", "VALUE", None),
+        ("Diffuse", "VALUE", 0.0),
+        ("Lobe Width", "VALUE", None),
+        ("Anisotropy", "VALUE", 0.0),
+        *FRAME,
+    ),
+    "PHYSICAL": (
+        *WIRES,
+        ("Groove Depth", "VALUE", 300.0),
+        ("Cross Spacing", "VALUE", 0.0),
+        ("Cross Width", "VALUE", 250.0),
+        ("Spacing Variation", "VALUE", 0.0),
+        ("Coherence Width", "VALUE", 15.0),
+        ("Roughness", "VALUE", None),
+        ("Metal n", "VECTOR", None),
+        ("Metal k", "VECTOR", None),
+        *FRAME,
+    ),
+}
+# What a new node has of them.
+HIDDEN_AT_FIRST = {"Oxide IOR", "Metal n", "Metal k"}
 
 EFFECTS = ("use_wire_diffraction", "use_grating", "use_thin_film")
+
+# What makes a new node one of a model, with all of the model's inputs.
+MODELS: dict[str, dict[str, Any]] = {
+    "CS348B": {"model": "CS348B"},
+    "PHYSICAL": {"model": "PHYSICAL", "metal": "CUSTOM", "oxide": "CUSTOM"},
+}
+# And another value of each of its lists.
+LISTS = {
+    "metal": ("ALUMINIUM", "TUNGSTEN", "SILICON"),
+    "oxide": ("SI3N4",),
+    "illuminant": ("D65", "A", "F2", "F11", "WHITE_LED", "SODIUM"),
+}
 
 # A value of each input that has to look different from the default.
 OTHER_VALUES: dict[str, Any] = {
@@ -47,6 +82,14 @@ OTHER_VALUES: dict[str, Any] = {
     "Diffuse": 0.4,
     "Lobe Width": 0.05,
     "Anisotropy": 2.0,
+    "Groove Depth": 190.0,
+    "Cross Spacing": 1700.0,
+    "Cross Width": 600.0,
+    "Spacing Variation": 0.08,
+    "Coherence Width": 5.0,
+    "Roughness": 0.25,
+    "Metal n": [1.5, 1.2, 0.8],
+    "Metal k": [7.0, 6.5, 5.0],
     "Normal": [0.2, 0.1, 0.97],
     "Tangent": [0.6, 0.8, 0.0],
 }
@@ -104,23 +147,34 @@ class Facts(TestCase):
         self.assertIn("wafer", self.facts["description"])
 
     def test_inputs(self) -> None:
-        found = self.facts["inputs"]
-        self.assertEqual([(i["name"], i["type"]) for i in found], [i[:2] for i in INPUTS])
-        for socket, (name, _, default) in zip(found, INPUTS, strict=True):
-            if default is not None:
-                np.testing.assert_allclose(socket["default"], default, rtol=1e-6, err_msg=name)
+        for model, inputs in INPUTS.items():
+            found = self.facts["inputs"][model]
+            self.assertEqual([(i["name"], i["type"]) for i in found], [i[:2] for i in inputs])
+            for socket, (name, _, default) in zip(found, inputs, strict=True):
+                if default is not None:
+                    np.testing.assert_allclose(socket["default"], default, rtol=1e-6, err_msg=name)
+
+    def test_a_new_node_shows_what_it_needs(self) -> None:
+        expected = [name for name, _, _ in INPUTS["PHYSICAL"] if name not in HIDDEN_AT_FIRST]
+        self.assertEqual(self.facts["inputs at first"], expected)
 
     def test_output(self) -> None:
         self.assertEqual(self.facts["outputs"], [["BSDF", "SHADER"]])
 
     def test_properties(self) -> None:
         properties, values = self.facts["properties"], self.facts["values"]
-        self.assertEqual(set(properties), {"model", *EFFECTS})
-        self.assertEqual(values, {"model": "CS348B"} | dict.fromkeys(EFFECTS, True))
+        self.assertEqual(set(properties), {"model", *LISTS, *EFFECTS})
+        first = {"metal": "COPPER", "oxide": "SIO2", "illuminant": "EQUAL_ENERGY"}
+        self.assertEqual(
+            values, {"model": "PHYSICAL"} | first | dict.fromkeys(EFFECTS, True)
+        )
         for name, prop in properties.items():
             self.assertGreater(len(prop["tooltip"]), 20, name)
-        for item, tooltip in properties["model"]["items"].items():
-            self.assertGreater(len(tooltip), 20, item)
+        for name in ("model", *LISTS):
+            for item, tooltip in properties[name]["items"].items():
+                self.assertGreater(len(tooltip), 20, item)
+        for name, items in LISTS.items():
+            self.assertLess(set(items), set(properties[name]["items"]))
 
     def test_menu(self) -> None:
         self.assertEqual(self.facts["menu"], [["Shader", "IC Wafer BSDF"]])
@@ -130,7 +184,7 @@ class Facts(TestCase):
         page = urlparse(self.facts["help"])
         self.assertEqual(page.scheme, "file", self.facts["help"])
         text = Path(unquote(page.path)).read_text()
-        for name, _, _ in INPUTS:
+        for name, _, _ in (*INPUTS["CS348B"], *INPUTS["PHYSICAL"]):
             self.assertIn(name, text)
 
 
@@ -225,15 +279,24 @@ class Renders(TestCase):
 
     def test_every_input_acts_and_links(self) -> None:
         """Another value changes the picture, and the same value through a link does the same."""
-        variants: dict[str, dict[str, Any]] = {"default": {}}
-        for name, value in OTHER_VALUES.items():
-            variants[f"{name} linked"] = {"inputs": {name: value}, "linked": [name]}
+        for model in INPUTS:
+            self.every_input_acts_and_links(model)
+
+    def every_input_acts_and_links(self, model: str) -> None:
+        properties = {"properties": MODELS[model]}
+        # Wires of another width need to be there.
+        needed = {"Cross Width": {"Cross Spacing": 1700.0}}
+        variants: dict[str, dict[str, Any]] = {"default": properties}
+        names = [name for name, _, _ in INPUTS[model]]
+        for name in names:
+            inputs = needed.get(name, {}) | {name: OTHER_VALUES[name]}
+            variants[f"{name} linked"] = properties | {"inputs": inputs, "linked": [name]}
             if name not in ("Normal", "Tangent"):
-                variants[name] = {"inputs": {name: value}}
+                variants[name] = properties | {"inputs": inputs}
         pictures = self.render(variants)
         default = pictures["default"]
-        for name in OTHER_VALUES:
-            with self.subTest(name):
+        for name in names:
+            with self.subTest(name, model=model):
                 linked = pictures[f"{name} linked"]
                 change = np.abs(linked - default).mean() / default.mean()
                 self.assertGreater(float(change), 0.02, "the picture did not change")
@@ -241,21 +304,37 @@ class Renders(TestCase):
                     np.testing.assert_allclose(linked, pictures[name], rtol=1e-5, atol=1e-6)
 
     def test_every_effect_acts(self) -> None:
-        variants: dict[str, dict[str, Any]] = {"all": {}}
-        variants |= {effect: {"properties": {effect: False}} for effect in EFFECTS}
+        model = MODELS["CS348B"]
+        variants: dict[str, dict[str, Any]] = {"all": {"properties": model}}
+        variants |= {effect: {"properties": model | {effect: False}} for effect in EFFECTS}
         pictures = self.render(variants)
         for effect in EFFECTS:
             with self.subTest(effect):
                 change = np.abs(pictures[effect] - pictures["all"]).mean() / pictures["all"].mean()
                 self.assertGreater(float(change), 0.02, "switching it off changed nothing")
 
+    def test_every_item_of_a_list_acts(self) -> None:
+        variants: dict[str, dict[str, Any]] = {"first": {}}
+        for name, items in LISTS.items():
+            variants |= {item: {"properties": {name: item}} for item in items}
+        pictures = self.render(variants)
+        for item in variants.keys() - {"first"}:
+            with self.subTest(item):
+                change = np.abs(pictures[item] - pictures["first"]).mean()
+                self.assertGreater(float(change / pictures["first"].mean()), 0.02)
+
     def test_other_engines(self) -> None:
         """EEVEE and Workbench: a glossy stand-in, with everything linked and nothing linked."""
-        everything = {"inputs": OTHER_VALUES, "linked": list(OTHER_VALUES)}
-        switched = {"properties": dict.fromkeys(EFFECTS, False)}
+        variants: dict[str, dict[str, Any]] = {"new": {}}
+        for model, inputs in INPUTS.items():
+            values = {name: OTHER_VALUES[name] for name, _, _ in inputs}
+            variants[model] = {
+                "properties": MODELS[model], "inputs": values, "linked": list(values)
+            }
+        variants["off"] = {"properties": MODELS["CS348B"] | dict.fromkeys(EFFECTS, False)}
         for engine in ("BLENDER_EEVEE", "BLENDER_WORKBENCH"):
             with self.subTest(engine):
-                pictures = self.render({"new": {}, "all": everything, "off": switched}, engine)
+                pictures = self.render(variants, engine)
                 if engine == "BLENDER_EEVEE":
                     self.assertGreater(float(np.ptp(pictures["new"])), 0.05, "no highlight")
 
@@ -267,10 +346,16 @@ class Extremes(TestCase):
     ABSURD = (0.0, -1.0, 1e-30, 1e-6, 1.0, 1e9, -1e9, 3e38, math.inf, -math.inf, math.nan)
 
     def picture(
-        self, name: str, inputs: dict[str, float], attributes: dict[str, Any]
+        self, name: str, model: str, inputs: dict[str, Any], attributes: dict[str, Any]
     ) -> np.ndarray:
-        exr = self.folder / f"{name}.exr"
-        given = {"side": self.SIDE, "inputs": inputs, "attributes": attributes, "exr": str(exr)}
+        exr = self.folder / f"{model}.{name}.exr"
+        given = {
+            "side": self.SIDE,
+            "properties": MODELS[model],
+            "inputs": inputs,
+            "attributes": attributes,
+            "exr": str(exr),
+        }
         self.inside("render_extremes", given)
         return pixels.read(exr)
 
@@ -280,20 +365,23 @@ class Extremes(TestCase):
         So each pixel has to be at least as bright as with the matt part alone. Each square has its
         own choice: half of the inputs as they are, half absurd.
         """
+        for model in INPUTS:
+            with self.subTest(model):
+                self.absurd_values(model)
+
+    def absurd_values(self, model: str) -> None:
         generator = np.random.default_rng(348)
         squares = self.SIDE**2
         absurd = {}
-        for name, kind, _ in INPUTS:
-            if kind == "VALUE" and name != "Diffuse":
-                # What the default is does not matter here: a value in the middle of its range.
-                usual = {"Wire Spacing": 1000.0, "Wire Width": 250.0, "Oxide Thickness": 530.0}
+        for name, kind, default in INPUTS[model]:
+            if kind == "VALUE":
+                usual = 0.5 if default is None else default
                 choice = generator.choice(self.ABSURD, squares)
                 as_it_is = generator.random(squares) < 0.5
-                absurd[name] = np.where(as_it_is, usual.get(name, 0.5), choice).tolist()
+                absurd[name] = np.where(as_it_is, usual, choice).tolist()
 
-        matt = {"Diffuse": 0.5, "Diffraction": 0.0, "Specular": 0.0}
-        alone = self.picture("matt", matt, {})
-        found = self.picture("absurd", {"Diffuse": 0.5}, absurd)
+        alone = self.picture("matt", model, {"Color": [0.0, 0.0, 0.0, 1.0]}, {})
+        found = self.picture("absurd", model, {}, absurd)
         self.assertGreater(float(alone.min()), 1e-3)
         self.assertTrue(np.isfinite(found).all())
         dark = np.argwhere((found < 0.999 * alone).any(axis=2))
@@ -315,14 +403,29 @@ class Extremes(TestCase):
         def variants(socket: str) -> dict[str, dict[str, Any]]:
             return {
                 f"{socket} {name}": {
+                    "properties": MODELS["CS348B"],
                     "inputs": {"Diffuse": 0.5, socket: vector},
                     "linked": [socket],
                 }
                 for name, vector in vectors.items()
             }
 
+        def physical(socket: str) -> dict[str, dict[str, Any]]:
+            return {
+                f"PHYSICAL {name}": variant | {
+                    "properties": MODELS["PHYSICAL"],
+                    "inputs": {socket: variant["inputs"][socket]},
+                }
+                for name, variant in variants(socket).items()
+            }
+
+        for socket in ("Normal", "Tangent", "Metal n", "Metal k"):
+            self.render(physical(socket), lit=False)
         self.render(variants("Normal"), lit=False)
-        matt = {"inputs": {"Diffuse": 0.5, "Diffraction": 0.0, "Specular": 0.0}}
+        matt = {
+            "properties": MODELS["CS348B"],
+            "inputs": {"Diffuse": 0.5, "Diffraction": 0.0, "Specular": 0.0},
+        }
         pictures = self.render(variants("Tangent") | {"matt": matt})
         for name in vectors:
             with self.subTest(tangent=name):

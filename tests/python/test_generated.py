@@ -16,8 +16,22 @@ class Generated(unittest.TestCase):
         )
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_colour_matching_functions(self) -> None:
-        self.check("shaders/icwafer/data/make_cie1931.py")
+    def test_tables_of_the_material(self) -> None:
+        generators = sorted((ROOT / "shaders/icwafer/data").glob("make_*.py"))
+        self.assertEqual(len(generators), 4)
+        for generator in generators:
+            with self.subTest(generator.name):
+                self.check(str(generator.relative_to(ROOT)))
+
+    def test_reflectance_of_the_metals(self) -> None:
+        """The table with linear interpolation keeps the reflectance within 2e-3."""
+        sys.path.insert(0, str(ROOT / "shaders/icwafer/data"))
+        import make_metals
+
+        for name, file, _ in make_metals.METALS:
+            for above in (1.0, 1.46):
+                with self.subTest(name, above=above):
+                    self.assertLess(make_metals.reflectance_error(file, above), 2e-3)
 
     def test_manual_page(self) -> None:
         self.check("plugin/manual/make_manual.py")

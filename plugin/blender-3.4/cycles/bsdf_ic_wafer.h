@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 
 /*
- * IC WAFER BSDF
+ * IC WAFER BSDF, model CS348B
  *
  * Diffraction by the parallel wires of an integrated circuit. The optics and their papers are in
- * kernel/icwafer; this file only turns the closure's frame into theirs.
+ * kernel/icwafer/cs348b.h; this file only turns the closure's frame into theirs.
  */
 
 #pragma once
 
+#include "kernel/closure/bsdf_ic_wafer_frame.h"
 #include "kernel/icwafer/cs348b_sample.h"
 
 CCL_NAMESPACE_BEGIN
@@ -29,42 +30,6 @@ typedef struct IcWaferBsdf {
 
 static_assert(sizeof(ShaderClosure) >= sizeof(IcWaferBsdf), "IcWaferBsdf is too large!");
 static_assert(sizeof(ShaderClosure) >= sizeof(IcWaferExtra), "IcWaferExtra is too large!");
-
-/* The working space's sensitivities, from the scene's look-up table. */
-struct IcWaferSensitivity {
-  KernelGlobals kg;
-
-  ccl_device_inline_method icwafer::Rgb operator()(const float wavelength_nm) const
-  {
-    const int offset = kernel_data.tables.ic_wafer_offset;
-    return icwafer::sensitivity_at(wavelength_nm, [&](const int i) {
-      return icwafer::Rgb{kernel_data_fetch(lookup_table, offset + 3 * i),
-                          kernel_data_fetch(lookup_table, offset + 3 * i + 1),
-                          kernel_data_fetch(lookup_table, offset + 3 * i + 2)};
-    });
-  }
-};
-
-ccl_device_inline icwafer::LocalDirection bsdf_ic_wafer_local(ccl_private const IcWaferBsdf *bsdf,
-                                                              const float3 w)
-{
-  return {dot(cross(bsdf->N, bsdf->T), w), dot(bsdf->T, w), dot(bsdf->N, w)};
-}
-
-/* Direction of the wires: `tangent` in the plane of the surface, turned by `direction_rad`
- * counter-clockwise as seen from outside. */
-ccl_device_inline float3 bsdf_ic_wafer_tangent(const float3 N,
-                                               const float3 tangent,
-                                               const float direction_rad)
-{
-  float3 T = tangent - dot(tangent, N) * N;
-  if (!(len_squared(T) > 1e-10f * len_squared(tangent)) || !isfinite_safe(T)) {
-    /* No tangent, or one along the normal: any direction, but always the same one. */
-    float3 bitangent;
-    make_orthonormals(N, &T, &bitangent);
-  }
-  return rotate_around_axis(normalize(T), N, isfinite_safe(direction_rad) ? direction_rad : 0.0f);
-}
 
 ccl_device int bsdf_ic_wafer_setup(ccl_private IcWaferBsdf *bsdf, const float3 I)
 {
@@ -99,9 +64,8 @@ ccl_device_inline Spectrum bsdf_ic_wafer_eval_local(KernelGlobals kg,
                                                     ccl_private float *pdf)
 {
   *pdf = icwafer::cs348b_pdf(bsdf->extra->params, bsdf->total_power, o, i);
-  const IcWaferSensitivity sensitivity = {kg};
   const icwafer::Rgb f = icwafer::cs348b_eval(
-      bsdf->extra->params, icwafer::grating_geometry(i, o), sensitivity);
+      bsdf->extra->params, icwafer::grating_geometry(i, o), ic_wafer_tables(kg));
   return rgb_to_spectrum(make_float3(f.r, f.g, f.b) * i.n);
 }
 
@@ -113,8 +77,8 @@ ccl_device Spectrum bsdf_ic_wafer_eval(KernelGlobals kg,
                                        ccl_private float *pdf)
 {
   ccl_private const IcWaferBsdf *bsdf = (ccl_private const IcWaferBsdf *)sc;
-  const icwafer::LocalDirection o = bsdf_ic_wafer_local(bsdf, I);
-  const icwafer::LocalDirection i = bsdf_ic_wafer_local(bsdf, omega_in);
+  const icwafer::LocalDirection o = ic_wafer_local(bsdf->N, bsdf->T, I);
+  const icwafer::LocalDirection i = ic_wafer_local(bsdf->N, bsdf->T, omega_in);
   if (!(o.n > 0.0f && i.n > 0.0f && dot(Ng, omega_in) > 0.0f)) {
     *pdf = 0.0f;
     return zero_spectrum();
@@ -138,10 +102,10 @@ ccl_device int bsdf_ic_wafer_sample(KernelGlobals kg,
   *eval = zero_spectrum();
   *pdf = 0.0f;
 
-  const icwafer::LocalDirection o = bsdf_ic_wafer_local(bsdf, I);
+  const icwafer::LocalDirection o = ic_wafer_local(bsdf->N, bsdf->T, I);
   const icwafer::LocalDirection i = icwafer::cs348b_sample(
       bsdf->extra->params, bsdf->total_power, o, randu, randv);
-  *omega_in = normalize(i.nu * cross(bsdf->N, bsdf->T) + i.tau * bsdf->T + i.n * bsdf->N);
+  *omega_in = ic_wafer_world(bsdf->N, bsdf->T, i);
   if (o.n > 0.0f && i.n > 0.0f && dot(Ng, *omega_in) > 0.0f) {
     *eval = bsdf_ic_wafer_eval_local(kg, bsdf, o, i, pdf);
   }

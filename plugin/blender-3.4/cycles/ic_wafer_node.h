@@ -4,13 +4,17 @@
 
 #pragma once
 
+#include "kernel/icwafer/illuminants.h"
+#include "kernel/icwafer/metals.h"
 #include "kernel/icwafer/node_inputs.h"
+#include "kernel/icwafer/oxides.h"
 #include "scene/shader_nodes.h"
 
 CCL_NAMESPACE_BEGIN
 
 enum ICWaferModel {
   IC_WAFER_CS348B = 0,
+  IC_WAFER_PHYSICAL = 1,
 };
 
 class ICWaferBsdfNode : public BsdfNode {
@@ -20,17 +24,28 @@ class ICWaferBsdfNode : public BsdfNode {
 #define ICWAFER_MEMBER(identifier, ...) NODE_SOCKET_API(float, identifier)
   ICWAFER_NODE_FLOATS(ICWAFER_MEMBER)
 #undef ICWAFER_MEMBER
+  NODE_SOCKET_API(float3, metal_n)
+  NODE_SOCKET_API(float3, metal_k)
   NODE_SOCKET_API(float3, tangent)
   NODE_SOCKET_API(ICWaferModel, model)
+  NODE_SOCKET_API(icwafer::Metal, metal)
+  NODE_SOCKET_API(icwafer::Oxide, oxide)
+  NODE_SOCKET_API(icwafer::Illuminant, illuminant)
   NODE_SOCKET_API(bool, use_wire_diffraction)
   NODE_SOCKET_API(bool, use_grating)
   NODE_SOCKET_API(bool, use_thin_film)
+
+ private:
+  void compile_cs348b(SVMCompiler &compiler);
+  void compile_physical(SVMCompiler &compiler);
+  void compile_closure(SVMCompiler &compiler,
+                       ClosureType type,
+                       uint inputs,
+                       uint more_inputs,
+                       int4 extra);
 };
 
-/* The working space's sensitivities, {red, green, blue} for each nanometre of the visible range:
- * icwafer::colour_table for the rows of the matrix from XYZ. */
-vector<float> ic_wafer_sensitivities(const float3 xyz_to_r,
-                                     const float3 xyz_to_g,
-                                     const float3 xyz_to_b);
+/* icwafer::material_tables for the rows of the matrix from XYZ. */
+vector<float> ic_wafer_tables(const float3 xyz_to_r, const float3 xyz_to_g, const float3 xyz_to_b);
 
 CCL_NAMESPACE_END

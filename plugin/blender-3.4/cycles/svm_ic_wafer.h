@@ -1,13 +1,33 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 
-/* The node IC Wafer BSDF in the shader virtual machine: reads its inputs and sets up three
- * closures, diffraction, mirror reflection and diffuse reflection. */
+/* The node IC Wafer BSDF in the shader virtual machine: reads its inputs and sets up closures. For
+ * the model PHYSICAL one; for CS348B three: diffraction, mirror reflection, diffuse reflection. */
 
 #pragma once
 
 #include "kernel/closure/bsdf_ic_wafer.h"
+#include "kernel/closure/bsdf_ic_wafer_physical.h"
 
 CCL_NAMESPACE_BEGIN
+
+/* The wires' direction; `tangent_offset` is SVM_STACK_INVALID for the object's X axis. */
+ccl_device_inline float3 svm_ic_wafer_tangent(KernelGlobals kg,
+                                              ccl_private ShaderData *sd,
+                                              ccl_private float *stack,
+                                              const uint tangent_offset,
+                                              const uint direction_offset,
+                                              const float3 N)
+{
+  float3 tangent;
+  if (stack_valid(tangent_offset)) {
+    tangent = stack_load_float3(stack, tangent_offset);
+  }
+  else {
+    tangent = make_float3(1.0f, 0.0f, 0.0f);
+    object_dir_transform(kg, sd, &tangent);
+  }
+  return ic_wafer_tangent(N, tangent, stack_load_float(stack, direction_offset));
+}
 
 /* `node` and `data_node` are those of every BSDF; `extra_node` is the third.
  *   node.z, node.w   values of Wire Spacing and Wire Width where they are not on the stack
@@ -16,16 +36,16 @@ CCL_NAMESPACE_BEGIN
  *   data_node.w      Specular, Specular Roughness, Diffuse, Lobe Width
  *   extra_node.x     Anisotropy
  *   extra_node.y     effects */
-ccl_device void svm_node_ic_wafer(KernelGlobals kg,
-                                  ccl_private ShaderData *sd,
-                                  ccl_private float *stack,
-                                  const uint4 data_node,
-                                  const uint4 extra_node,
-                                  const float spacing_nm,
-                                  const float width_nm,
-                                  const float3 N,
-                                  const float mix_weight,
-                                  const uint32_t path_flag)
+ccl_device void svm_node_ic_wafer_cs348b(KernelGlobals kg,
+                                         ccl_private ShaderData *sd,
+                                         ccl_private float *stack,
+                                         const uint4 data_node,
+                                         const uint4 extra_node,
+                                         const float spacing_nm,
+                                         const float width_nm,
+                                         const float3 N,
+                                         const float mix_weight,
+                                         const uint32_t path_flag)
 {
   uint oxide_thickness_offset, oxide_ior_offset, direction_offset, diffraction_offset;
   uint specular_offset, specular_roughness_offset, diffuse_offset, lobe_width_offset;
@@ -82,16 +102,8 @@ ccl_device void svm_node_ic_wafer(KernelGlobals kg,
                                                  sd, sizeof(IcWaferExtra)) :
                                              NULL;
     if (bsdf && extra) {
-      float3 tangent;
-      if (stack_valid(data_node.y)) {
-        tangent = stack_load_float3(stack, data_node.y);
-      }
-      else {
-        tangent = make_float3(1.0f, 0.0f, 0.0f);
-        object_dir_transform(kg, sd, &tangent);
-      }
       bsdf->N = N;
-      bsdf->T = bsdf_ic_wafer_tangent(N, tangent, stack_load_float(stack, direction_offset));
+      bsdf->T = svm_ic_wafer_tangent(kg, sd, stack, data_node.y, direction_offset, N);
       bsdf->extra = extra;
       extra->params = icwafer::cs348b_params(spacing_nm,
                                              width_nm,
@@ -103,6 +115,93 @@ ccl_device void svm_node_ic_wafer(KernelGlobals kg,
       sd->flag |= bsdf_ic_wafer_setup(bsdf, sd->I);
     }
   }
+}
+
+/* As above, but for
+ *   data_node.z      Oxide Thickness, Oxide IOR, Direction, Groove Depth
+ *   data_node.w      Cross Spacing, Cross Width, Spacing Variation, Coherence Width
+ *   extra_node.x     Roughness
+ *   extra_node.y     metal, oxide, illuminant: one byte each
+ *   extra_node.z, w  Metal n, Metal k */
+ccl_device void svm_node_ic_wafer_physical(KernelGlobals kg,
+                                           ccl_private ShaderData *sd,
+                                           ccl_private float *stack,
+                                           const uint4 data_node,
+                                           const uint4 extra_node,
+                                           const float spacing_nm,
+                                           const float width_nm,
+                                           const float3 N,
+                                           const float mix_weight)
+{
+  uint oxide_thickness_offset, oxide_ior_offset, direction_offset, groove_offset;
+  uint cross_spacing_offset, cross_width_offset, variation_offset, coherence_offset;
+  uint metal, oxide, illuminant, unused;
+  svm_unpack_node_uchar4(
+      data_node.z, &oxide_thickness_offset, &oxide_ior_offset, &direction_offset, &groove_offset);
+  svm_unpack_node_uchar4(data_node.w,
+                         &cross_spacing_offset,
+                         &cross_width_offset,
+                         &variation_offset,
+                         &coherence_offset);
+  svm_unpack_node_uchar4(extra_node.y, &metal, &oxide, &illuminant, &unused);
+
+  ccl_private IcWaferPhysicalBsdf *bsdf = (ccl_private IcWaferPhysicalBsdf *)bsdf_alloc(
+      sd, sizeof(IcWaferPhysicalBsdf), sd->svm_closure_weight * mix_weight);
+  ccl_private IcWaferPhysicalExtra *extra = bsdf ? (ccl_private IcWaferPhysicalExtra *)
+                                                       closure_alloc_extra(
+                                                           sd, sizeof(IcWaferPhysicalExtra)) :
+                                                   NULL;
+  if (!bsdf || !extra) {
+    return;
+  }
+  bsdf->N = N;
+  bsdf->T = svm_ic_wafer_tangent(kg, sd, stack, data_node.y, direction_offset, N);
+  bsdf->extra = extra;
+  extra->params = icwafer::physical_params(
+      icwafer::physical_lattice(spacing_nm, width_nm),
+      icwafer::physical_lattice(stack_load_float(stack, cross_spacing_offset),
+                                stack_load_float(stack, cross_width_offset)),
+      stack_load_float(stack, oxide_thickness_offset),
+      stack_load_float(stack, groove_offset),
+      stack_load_float(stack, coherence_offset),
+      stack_load_float(stack, extra_node.x),
+      stack_load_float(stack, variation_offset),
+      icwafer::Oxide(oxide),
+      stack_load_float(stack, oxide_ior_offset),
+      icwafer::Metal(metal),
+      icwafer::Illuminant(illuminant));
+  if (metal == icwafer::metal_custom) {
+    const float3 n = stack_load_float3(stack, extra_node.z);
+    const float3 k = stack_load_float3(stack, extra_node.w);
+    icwafer::physical_set_custom_metal(extra->params, n.x, n.y, n.z, k.x, k.y, k.z);
+  }
+  sd->flag |= bsdf_ic_wafer_physical_setup(kg, bsdf, sd->I);
+}
+
+ccl_device void svm_node_ic_wafer(KernelGlobals kg,
+                                  ccl_private ShaderData *sd,
+                                  ccl_private float *stack,
+                                  const uint type,
+                                  const uint4 data_node,
+                                  const uint4 extra_node,
+                                  const float spacing_nm,
+                                  const float width_nm,
+                                  const float3 N,
+                                  const float mix_weight,
+                                  const uint32_t path_flag)
+{
+  if (type == CLOSURE_BSDF_IC_WAFER_ID) {
+    svm_node_ic_wafer_cs348b(
+        kg, sd, stack, data_node, extra_node, spacing_nm, width_nm, N, mix_weight, path_flag);
+    return;
+  }
+#ifdef __CAUSTICS_TRICKS__
+  if (!kernel_data.integrator.caustics_reflective && (path_flag & PATH_RAY_DIFFUSE)) {
+    return;
+  }
+#endif
+  svm_node_ic_wafer_physical(
+      kg, sd, stack, data_node, extra_node, spacing_nm, width_nm, N, mix_weight);
 }
 
 CCL_NAMESPACE_END

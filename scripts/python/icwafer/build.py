@@ -62,7 +62,7 @@ def build(target: str, options: Mapping[str, str] | None = None) -> None:
     """Brings a target up to date: packages, source, edits, configuration, compilation, install."""
     options = options or {}
     if target == "core":
-        packages.install("base", "core")
+        packages.install("base", "core", "layout")
         _expect_space(target, paths.BUILD / "core" / "build.ninja")
         _configure(target, options)
         _compile(target, paths.BUILD / "core", {})

@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-from icwafer import build, doctor, packages, paths, render, source
+from icwafer import build, doctor, layout_command, packages, paths, render, source
 from icwafer.errors import IcwaferError
 from icwafer.study import command as study_command
 
@@ -71,7 +71,8 @@ def _doctor(_: argparse.Namespace) -> int:
 
 
 def _test(arguments: list[str]) -> int:
-    packages.install("base", "core", "host", "test")  # at once, so that root is asked for once
+    # At once, so that root is asked for once.
+    packages.install("base", "core", "host", "layout", "test")
     build.build("core")
     build.build("blender")
     return subprocess.run(
@@ -119,6 +120,7 @@ def _parser() -> _Parser:
     build_command.set_defaults(run=_build)
     add("blender", "start the built Blender; arguments go to it")
     add("doctor", "check dependencies, source edits and build").set_defaults(run=_doctor)
+    layout_command.register(add)
     pictures = add("pictures", "render the README's pictures to out/pictures")
     pictures.add_argument(
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"

@@ -15,8 +15,8 @@ from icwafer.errors import IcwaferError
 _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "study" renders studies,
-#: "test" are the tests that start Blender or a Slurm cluster.
+#: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and draws
+#: chips and wafers, "study" renders studies, "test" are the tests that start Blender or a cluster.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -48,6 +48,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "libspnav-dev",
         "opencollada-dev",
     ),
+    "layout": ("python3-matplotlib",),
     "study": ("python3-numpy", "python3-openimageio"),
     "test": (
         "blender",

@@ -4,10 +4,8 @@
 
 import csv
 import sys
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-HEADER = HERE.parent / "cie1931.h"
+from generated import HERE, main
 
 
 def header_text() -> str:
@@ -41,13 +39,5 @@ def header_text() -> str:
     return "\n".join(lines)
 
 
-def main() -> int:
-    text = header_text()
-    if "--check" in sys.argv[1:]:
-        return 0 if HEADER.read_text() == text else "cie1931.h is out of date: run make_cie1931.py"
-    HEADER.write_text(text)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(HERE.parent / "cie1931.h", header_text()))

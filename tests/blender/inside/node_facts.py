@@ -34,6 +34,14 @@ def menu_entries() -> list[tuple[str, str]]:
     ]
 
 
+def inputs_of(**properties: str) -> list[dict[str, Any]]:
+    """The inputs that a node with these properties shows."""
+    _, node = wafer_material()
+    for name, value in properties.items():
+        setattr(node, name, value)
+    return [describe_socket(s) for s in node.inputs if s.enabled and not s.is_unavailable]
+
+
 _, node = wafer_material()
 own = set(type(node).bl_rna.properties.keys()) - set(bpy.types.ShaderNode.bl_rna.properties.keys())
 report(
@@ -41,7 +49,11 @@ report(
         "label": node.bl_label,
         "name": node.name,
         "description": type(node).bl_rna.description,
-        "inputs": [describe_socket(s) for s in node.inputs if not s.is_unavailable],
+        "inputs": {
+            "CS348B": inputs_of(model="CS348B"),
+            "PHYSICAL": inputs_of(model="PHYSICAL", metal="CUSTOM", oxide="CUSTOM"),
+        },
+        "inputs at first": [s["name"] for s in inputs_of()],
         "outputs": [(s.name, s.type) for s in node.outputs],
         "properties": {
             name: describe_property(type(node).bl_rna.properties[name]) for name in own

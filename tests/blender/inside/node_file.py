@@ -23,6 +23,7 @@ def change_everything(node: bpy.types.ShaderNode) -> None:
     node.inputs["Color"].default_value = (0.25, 0.5, 0.75, 1.0)
     node.use_wire_diffraction = False
     node.use_thin_film = False
+    node.metal, node.oxide, node.illuminant = "CUSTOM", "SI3N4", "SODIUM"
     tree = node.id_data
     for name, source in (
         ("Normal", "ShaderNodeBump"),

@@ -24,7 +24,10 @@ def node_state(node: bpy.types.ShaderNode) -> dict[str, Any]:
         "outputs": [link.to_node.bl_idname for s in node.outputs for link in s.links],
         "properties": {
             name: getattr(node, name)
-            for name in ("model", "use_wire_diffraction", "use_grating", "use_thin_film")
+            for name in (
+                "model", "metal", "oxide", "illuminant",
+                "use_wire_diffraction", "use_grating", "use_thin_film",
+            )
             if hasattr(node, name)
         },
     }

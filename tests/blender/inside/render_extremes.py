@@ -2,7 +2,8 @@
 """Render a plane of many squares, each with its own values of the node's inputs.
 
 Parameters: `attributes`, from an input's name to one number per square (row by row), `side`, the
-number of squares along an edge, `inputs`, values for the others, and `exr`: one pixel per square.
+number of squares along an edge, `inputs` and `properties`, values for the others, and `exr`: one
+pixel per square.
 """
 
 from __future__ import annotations
@@ -30,8 +31,17 @@ given = parameters()
 side = given["side"]
 empty_scene()
 material, node = wafer_material()
+for name, value in given["properties"].items():
+    setattr(node, name, value)
 for name, value in given["inputs"].items():
     node.inputs[name].default_value = value
+# A matt part beside it, which shows a pixel that has lost its light.
+tree = node.id_data
+matt, both = tree.nodes.new("ShaderNodeBsdfDiffuse"), tree.nodes.new("ShaderNodeAddShader")
+matt.inputs["Color"].default_value = (0.5, 0.5, 0.5, 1.0)
+tree.links.new(node.outputs["BSDF"], both.inputs[0])
+tree.links.new(matt.outputs["BSDF"], both.inputs[1])
+tree.links.new(both.outputs["Shader"], tree.nodes["Material Output"].inputs["Surface"])
 for name in given["attributes"]:
     attribute = node.id_data.nodes.new("ShaderNodeAttribute")
     attribute.attribute_name = name

@@ -19,6 +19,7 @@ from wafer_scene import add_camera, add_lamp, add_plane, empty_scene, wafer_mate
 def build(mount: dict[str, Any]) -> None:
     empty_scene()
     material, node = wafer_material()
+    node.model = "CS348B"
     node.use_grating = True
     node.use_thin_film = False
     node.use_wire_diffraction = False

@@ -5,7 +5,9 @@ Parameters: `engine`, `variants`: a list of objects with
 `exr`         where the picture goes,
 `inputs`      values of inputs that are not as the Add menu makes them,
 `linked`      names of inputs that get their value through a link instead of the socket,
-`properties`  values of properties.
+`properties`  values of properties,
+and, where the usual picture will not do, `lamp`: its place, `power_w`, `size`: pixels,
+`view_width`, `exact_pixels`: whether all samples lie in the middle of their pixel.
 """
 
 from __future__ import annotations
@@ -46,15 +48,19 @@ def build(variant: dict[str, Any]) -> None:
         else:
             socket.default_value = value
     add_plane(material)
-    add_lamp((0.25, -0.2, 1.0))
+    add_lamp(variant.get("lamp", (0.25, -0.2, 1.0)), variant.get("power_w", 30.0))
     camera = add_camera((0.0, 0.0, 3.0))
     camera.type = "ORTHO"
-    camera.ortho_scale = 2.2
+    camera.ortho_scale = variant.get("view_width", 2.2)
 
 
 for variant in parameters()["variants"]:
     build(variant)
-    use_cycles(width=48, height=48, samples=4)
+    width, height = variant.get("size", (48, 48))
+    use_cycles(width=width, height=height, samples=4)
+    if variant.get("exact_pixels"):
+        bpy.context.scene.cycles.pixel_filter_type = "BOX"
+        bpy.context.scene.cycles.filter_width = 0.01
     bpy.context.scene.render.engine = parameters()["engine"]
     render_to(exr=variant["exr"])
 report({})

@@ -11,7 +11,7 @@ from icwafer.chips.model import MAX_BLOCKS, UM, BlockTable, DieSpec, size_nm
 
 
 def block_problems(blocks: BlockTable, spec: DieSpec) -> Iterator[str]:
-    """What is wrong with the blocks of a die: shapes, groups, outside the die, overlap."""
+    """What is wrong with the blocks of a die: shapes, groups, no area, outside the die."""
     rect, group = blocks.rect_nm, blocks.group
     if rect.shape != (len(group), 4) or group.ndim != 1:
         yield f"shapes {rect.shape} and {group.shape} are not (n, 4) and (n,)"
@@ -28,17 +28,22 @@ def block_problems(blocks: BlockTable, spec: DieSpec) -> Iterator[str]:
     empty = np.flatnonzero((rect[:, 2:] <= rect[:, :2]).any(axis=1))
     if len(empty):
         yield f"block {empty[0] + 1}, {_spelled(rect[empty[0]])}, has no area"
-    outside = np.flatnonzero((rect[:, :2] < 0).any(axis=1) | (rect[:, 2:] > size_nm(spec)).any(axis=1))
+    outside = np.flatnonzero(
+        (rect[:, :2] < 0).any(axis=1) | (rect[:, 2:] > size_nm(spec)).any(axis=1)
+    )
     if len(outside):
         yield (
             f"block {outside[0] + 1}, {_spelled(rect[outside[0]])}, is not inside the die of "
             f"{spec.width_mm:g} x {spec.height_mm:g} mm"
         )
-    if not len(empty) and not len(outside):
-        pair = overlap(rect)
-        if pair:
-            first, second = sorted(pair)
-            yield f"blocks {first + 1}, {_spelled(rect[first])}, and {second + 1} overlap"
+
+
+def overlap_problems(blocks: BlockTable) -> Iterator[str]:
+    """Which blocks overlap. They must have no other problems."""
+    pair = overlap(blocks.rect_nm)
+    if pair:
+        first, second = sorted(pair)
+        yield f"blocks {first + 1}, {_spelled(blocks.rect_nm[first])}, and {second + 1} overlap"
 
 
 def _spelled(rect: np.ndarray) -> str:

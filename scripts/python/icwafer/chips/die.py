@@ -39,26 +39,32 @@ def generate(spec: DieSpec) -> Die:
 
 
 def _groups_of_blocks(rng: np.random.Generator, spec: DieSpec, plan: Plan) -> np.ndarray:
-    """Deals the macros of each kind to the groups of that kind: (n,) int32."""
-    kinds = np.unique(plan.kind)
-    members = {kind: _groups_of(spec, Kind(kind)) for kind in kinds}
-    group_of_macro = np.empty(plan.macro.max() + 1, dtype=np.int32)
+    """Deals the macros of each kind to the groups of that kind: (n,) int32.
+
+    A macro with a role is of the group of that name and its kind, if there is one.
+    """
     kind_of_macro = _main_kind_of_each_macro(plan.macro, plan.kind)
+    group_of_macro = np.full(len(kind_of_macro), -1, dtype=np.int32)
+    named = {(group.name, group.kind): index for index, group in enumerate(spec.groups)}
+    for macro, role in enumerate(plan.roles):
+        group_of_macro[macro] = named.get((role, kind_of_macro[macro]), -1)
+    kinds = np.unique(plan.kind)
     for kind in kinds:
-        macros = np.flatnonzero(kind_of_macro == kind)
-        group_of_macro[macros] = _deal(rng, members[kind], len(macros))
+        macros = np.flatnonzero((kind_of_macro == kind) & (group_of_macro < 0))
+        if len(macros):
+            group_of_macro[macros] = _deal(rng, _groups_of(spec, kind), len(macros))
     group = group_of_macro[plan.macro]
-    if Kind.STRIP in members:
-        group[plan.kind == Kind.STRIP] = members[Kind.STRIP][0][0]
+    if Kind.STRIP in kinds:
+        group[plan.kind == Kind.STRIP] = _groups_of(spec, Kind.STRIP)[0][0]
     return group
 
 
-def _groups_of(spec: DieSpec, kind: Kind) -> list[tuple[int, float]]:
+def _groups_of(spec: DieSpec, kind: int) -> list[tuple[int, float]]:
     """Index and weight of each group of a kind."""
     groups = [(i, group.weight) for i, group in enumerate(spec.groups) if group.kind == kind]
     if not any(weight > 0 for _, weight in groups):
         raise IcwaferError(
-            f"die '{spec.name}' has no group of kind {kind.name.lower()}, which its floorplan "
+            f"die '{spec.name}' has no group of kind {Kind(kind).name.lower()}, which its floorplan "
             "needs: add one with a weight above 0"
         )
     return groups
@@ -72,9 +78,7 @@ def _main_kind_of_each_macro(macro: np.ndarray, kind: np.ndarray) -> np.ndarray:
     return kinds
 
 
-def _deal(
-    rng: np.random.Generator, groups: Sequence[tuple[int, float]], count: int
-) -> np.ndarray:
+def _deal(rng: np.random.Generator, groups: Sequence[tuple[int, float]], count: int) -> np.ndarray:
     """`count` group indices in random order; each group gets its share to the nearest one."""
     indices, weights = np.array([i for i, _ in groups]), np.cumsum([w for _, w in groups])
     dealt = indices[np.searchsorted(weights, (np.arange(count) + 0.5) / count * weights[-1])]
@@ -99,6 +103,8 @@ def _draw(
         values["direction_rad"][cells] = np.radians(degrees)
     for group, cells in zip(groups, members):
         for name in ATTRIBUTES[len(_FIRST_DRAWN) :]:
-            values[name][cells] = getattr(group, name).draw(rng, len(cells))
+            spread = getattr(group, name)
+            same = spread.low == spread.high
+            values[name][cells] = spread.mean if same else spread.draw(rng, len(cells))
     np.clip(values["diffraction"], 0.0, 1.0, out=values["diffraction"])
     return values

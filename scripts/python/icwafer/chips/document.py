@@ -17,6 +17,7 @@ written file gives the same bytes.
 
 from __future__ import annotations
 
+import re
 import tomllib
 from pathlib import Path
 
@@ -31,6 +32,7 @@ from icwafer.files import replacing
 FORMAT = "icwafer-layout"
 VERSION = 1
 ENDING = ".layout.toml"
+
 
 def read_layout(path: Path) -> Layout:
     """Reads and checks a layout file.
@@ -48,12 +50,16 @@ def parse_layout(text: str, name: str) -> Layout:
     """Reads and checks the text of a layout file; `name` is what messages call it."""
     try:
         document = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        reason = str(error) if isinstance(error, ValueError) else "nested too deeply"
-        raise IcwaferError(f"{name}: not valid TOML: {reason}; correct it") from None
+    except RecursionError:
+        raise IcwaferError(f"{name}: not valid TOML: nested too deeply; correct it") from None
+    except ValueError as error:  # of the syntax, or of a number with thousands of digits
+        place = re.search(r" \(at line (\d+), column (\d+)\)$", str(error))
+        line, at = (place[1], f" at column {place[2]}") if place else (text.count("\n") + 1, "")
+        reason = re.sub(r" \(at .*\)$", "", str(error)) + at
+        raise IcwaferError(f"{name}:{line}: not valid TOML: {reason}; correct it") from None
     found = document.pop("format", None)
     if found != FORMAT:
-        raise IcwaferError(f"{name}:1: no layout file: it must begin with format = \"{FORMAT}\"")
+        raise IcwaferError(f'{name}:1: no layout file: it must begin with format = "{FORMAT}"')
     version = document.pop("version", None)
     if version != VERSION or isinstance(version, bool):
         raise IcwaferError(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-Path = tuple[str | int, ...]
+FieldPath = tuple[str | int, ...]
 
 _BARE_OR_QUOTED = re.compile(r"""\s*(?:([A-Za-z0-9_-]+)|"((?:[^"\\]|\\.)*)"|'([^']*)')\s*""")
 _STRING = re.compile(
@@ -19,7 +19,7 @@ _STRING = re.compile(
 )
 
 
-def line_of(text: str, path: Path) -> int:
+def line_of(text: str, path: FieldPath) -> int:
     """The line, from 1, of the longest beginning of `path` that the text has; 1 for none."""
     best, line = 0, 1
     for found, position in _places(text):
@@ -29,10 +29,10 @@ def line_of(text: str, path: Path) -> int:
     return line
 
 
-def _places(text: str) -> Iterator[tuple[Path, int]]:
+def _places(text: str) -> Iterator[tuple[FieldPath, int]]:
     """The path and position of every header, every key, and every element of a key's array."""
-    table: Path = ()
-    counts: dict[Path, int] = {}
+    table: FieldPath = ()
+    counts: dict[FieldPath, int] = {}
     position = 0
     while True:
         position = _skip(text, position)
@@ -76,7 +76,7 @@ def _names(text: str, position: int) -> tuple[list[str], int]:
         position += 1
 
 
-def _value(text: str, position: int, key: Path) -> Iterator[tuple[Path, int]]:
+def _value(text: str, position: int, key: FieldPath) -> Iterator[tuple[FieldPath, int]]:
     """Passes over a value, giving the elements of an array; returns where it ends."""
     depth = element = 0
     while position < len(text):

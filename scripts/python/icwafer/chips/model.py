@@ -26,8 +26,9 @@ from icwafer.chips.wafer import Wafer
 UM = 1000  # nm
 MM = 1000 * UM
 
-#: Largest number of blocks of one die, a guard against a slip of the pen in a file.
+#: Largest numbers of blocks of a die, and of dies of a wafer: guards against a slip of the pen.
 MAX_BLOCKS = 20_000_000
+MAX_DIES = 1_000_000
 
 
 class Kind(enum.IntEnum):
@@ -84,7 +85,7 @@ class Group:
         "period of the wires across, 0 for none", 0, 200_000, default=Normal(0.0)
     )
     cross_width_nm: Spread = ruled("width of a wire across", 0, 200_000, default=Normal(0.0))
-    groove_nm: Spread = ruled("depth from wire to ground", 0, 20_000, default=Normal(350.0))
+    groove_nm: Spread = ruled("depth from wire to ground", 0, 20_000, default=Normal(300.0))
 
 
 #: The fields of a group that become an attribute of each block, in the order of their drawing.
@@ -206,6 +207,10 @@ class Size(NamedTuple):
 
     width_nm: int
     height_nm: int
+
+    @property
+    def area_um2(self) -> float:
+        return self.width_nm / UM * self.height_nm / UM
 
 
 def size_nm(spec: DieSpec) -> Size:

@@ -26,7 +26,12 @@ def packed(blocks: BlockTable) -> str:
     low, sides = blocks.rect_nm[:, :2], blocks.rect_nm[:, 2:] - blocks.rect_nm[:, :2]
     steps = np.diff(low, axis=0, prepend=np.zeros((1, 2), dtype=np.int64))
     columns = np.concatenate([steps.T, sides.T, blocks.group[None]])
-    by_weight = np.ascontiguousarray(columns, dtype="<i4").view(np.uint8).reshape(5, -1, 4).transpose(0, 2, 1)
+    by_weight = (
+        np.ascontiguousarray(columns, dtype="<i4")
+        .view(np.uint8)
+        .reshape(5, -1, 4)
+        .transpose(0, 2, 1)
+    )
     return base64.b64encode(zlib.compress(by_weight.tobytes(), level=6)).decode("ascii")
 
 

@@ -21,7 +21,6 @@ from icwafer.chips.plan import Plan, concatenate, copy, join, plan
 from icwafer.errors import IcwaferError
 
 
-
 def pictures(rng: np.random.Generator, width_nm: int, height_nm: int, _: float) -> Plan:
     """Floorplan of a processor die with its lower left corner at (0, 0); several thousand blocks.
 
@@ -142,9 +141,7 @@ def _repeat(rect: Rect, columns: int, rows: int, fill: Callable[[Rect], Plan]) -
     )
 
 
-def _slice(
-    rng: np.random.Generator, rect: Rect, area_mm2: float, max_aspect: float
-) -> list[Rect]:
+def _slice(rng: np.random.Generator, rect: Rect, area_mm2: float, max_aspect: float) -> list[Rect]:
     """Cuts a rectangle in two, again and again, until the parts have about the given area.
 
     The longer side is cut when the part is longer than `max_aspect`, else either side is.

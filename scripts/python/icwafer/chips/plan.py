@@ -21,12 +21,14 @@ class Plan:
     macro: (n,) int64; blocks of one macro belong to one group of wires.
     cell: (n,) int64, every number from 0 up to the largest is there; blocks of one cell are copies
     of each other and share their wires.
+    roles: for each macro, the name of the group that it asks for, or ""; no macro asks if empty.
     """
 
     rect_nm: np.ndarray
     kind: np.ndarray
     macro: np.ndarray
     cell: np.ndarray
+    roles: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.rect_nm)
@@ -52,10 +54,18 @@ def copied(
     """
     rects = np.empty((len(targets), *rect_nm.shape), dtype=np.int64)
     for axis in (0, 1):
-        share = (rect_nm[:, axis::2] - source[axis]) / length(source, axis)
-        shares = np.where(flips[:, axis, None, None], 1.0 - share[:, ::-1], share)
-        low, high = targets[:, axis, None, None], targets[:, axis + 2, None, None]
-        rects[:, :, axis::2] = low + np.rint(shares * (high - low)).astype(np.int64)
+        offset, extent = rect_nm[:, axis::2] - source[axis], length(source, axis)
+        low, high = targets[:, axis], targets[:, axis + 2]
+        for flip in (False, True):
+            of = np.flatnonzero(flips[:, axis] == flip)
+            if len(of):
+                of = slice(None) if len(of) == len(targets) else of
+                placed = extent - offset[:, ::-1] if flip else offset
+                if (high - low == extent).all():
+                    rects[of, :, axis::2] = low[of, None, None] + placed
+                else:
+                    scaled = placed / extent * (high - low)[of, None, None]
+                    rects[of, :, axis::2] = low[of, None, None] + np.rint(scaled).astype(np.int64)
     return rects.reshape(-1, 4)
 
 

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from icwafer.chips import packing
-from icwafer.chips.check import Path, Problem, group_problems
+from icwafer.chips.check import Problem, group_problems
+from icwafer.chips.lines import FieldPath
 from icwafer.chips.model import BlockTable, DieSpec, Group, Kind, Layout, kind_names
 from icwafer.chips.rules import rule_of
 from icwafer.chips.spread import Clustered, Normal, Spread, Uniform
@@ -21,7 +22,7 @@ from icwafer.chips.suggest import unknown
 class Unreadable(Exception):
     """A table, key or value that no layout has."""
 
-    def __init__(self, path: Path, text: str) -> None:
+    def __init__(self, path: FieldPath, text: str) -> None:
         super().__init__(text)
         self.problem = Problem(path, text)
 
@@ -31,7 +32,7 @@ def layout_of(document: dict[str, Any]) -> Layout:
     return _dataclass(Layout, document, ())
 
 
-def _dataclass(cls: type, table: object, path: Path, base: object = None) -> Any:
+def _dataclass(cls: type, table: object, path: FieldPath, base: object = None) -> Any:
     """A dataclass from a table; fields that it leaves out are those of `base`, or defaults."""
     if not isinstance(table, dict):
         raise Unreadable(path, f"{table!r:.60} is not a table")
@@ -50,7 +51,7 @@ def _dataclass(cls: type, table: object, path: Path, base: object = None) -> Any
     return cls(**values)
 
 
-def _decode(hint: Any, value: object, path: Path, old: Any) -> Any:
+def _decode(hint: Any, value: object, path: FieldPath, old: Any) -> Any:
     if hint == tuple[DieSpec, ...]:
         return tuple(_die(item, (*path, i)) for i, item in enumerate(_list(value, path)))
     if hint == tuple[Group, ...]:
@@ -66,7 +67,7 @@ def _decode(hint: Any, value: object, path: Path, old: Any) -> Any:
     return _dataclass(cls, value, path)
 
 
-def _die(table: object, path: Path) -> DieSpec:
+def _die(table: object, path: FieldPath) -> DieSpec:
     from icwafer.chips.presets import PRESETS
 
     if not isinstance(table, dict) or "preset" not in table:
@@ -78,7 +79,7 @@ def _die(table: object, path: Path) -> DieSpec:
     return _dataclass(DieSpec, changes, path, PRESETS[name].dies[0])
 
 
-def _groups(tables: list, path: Path, old: tuple[Group, ...]) -> tuple[Group, ...]:
+def _groups(tables: list, path: FieldPath, old: tuple[Group, ...]) -> tuple[Group, ...]:
     """The groups of a preset, changed by tables of the same name, and new ones."""
     groups = {group.name: group for group in old}
     names = set()
@@ -96,14 +97,15 @@ def _groups(tables: list, path: Path, old: tuple[Group, ...]) -> tuple[Group, ..
     return tuple(groups.values())
 
 
-def _blocks(table: dict, groups: tuple[Group, ...], path: Path) -> BlockTable:
+def _blocks(table: dict, groups: tuple[Group, ...], path: FieldPath) -> BlockTable:
     if set(table) == {"rows"}:
         names = {group.name: index for index, group in enumerate(groups)}
         rows = [
             _row(row, names, (*path, "rows", index))
             for index, row in enumerate(_list(table["rows"], (*path, "rows")))
         ]
-        return BlockTable.from_um(np.array(rows)[:, :4], np.array(rows)[:, 4])
+        columns = np.array(rows).reshape(-1, 5)
+        return BlockTable.from_um(columns[:, :4], columns[:, 4])
     if set(table) == {"count", "packed"}:
         count = _whole(table["count"], (*path, "count"))
         try:
@@ -113,16 +115,19 @@ def _blocks(table: dict, groups: tuple[Group, ...], path: Path) -> BlockTable:
     raise Unreadable(path, "needs either 'rows', or 'count' and 'packed', and nothing else")
 
 
-def _row(row: object, names: dict[str, int], path: Path) -> tuple[float, ...]:
+def _row(row: object, names: dict[str, int], path: FieldPath) -> tuple[float, ...]:
     if not isinstance(row, list) or len(row) != 5:
-        raise Unreadable(path, f"{row!r:.60} is not [x0, y0, x1, y1, \"group\"]")
+        raise Unreadable(path, f'{row!r:.60} is not [x0, y0, x1, y1, "group"]')
     *corners, name = row
     if not isinstance(name, str) or name not in names:
         raise Unreadable(path, unknown("group", str(name), names))
-    return (*(_number(corner, path) for corner in corners), names[name])
+    corners = [_number(corner, path) for corner in corners]
+    if not all(abs(corner) <= 1e6 for corner in corners):
+        raise Unreadable(path, f"{row!r:.60} is larger than any die: lengths are in micrometres")
+    return (*corners, names[name])
 
 
-def _spread(value: object, path: Path) -> Spread:
+def _spread(value: object, path: FieldPath) -> Spread:
     if not isinstance(value, dict):
         return Normal(_number(value, path))
     keys = set(value)
@@ -139,32 +144,32 @@ def _spread(value: object, path: Path) -> Spread:
     )
 
 
-def _kind(value: object, path: Path) -> Kind:
+def _kind(value: object, path: FieldPath) -> Kind:
     name = _text(value, path)
     if name not in kind_names():
         raise Unreadable(path, unknown("kind", name, kind_names()))
     return Kind[name.upper()]
 
 
-def _pair(value: object, path: Path) -> tuple[int, int]:
+def _pair(value: object, path: FieldPath) -> tuple[int, int]:
     if not isinstance(value, list) or len(value) != 2:
         raise Unreadable(path, f"{value!r:.60} is not [column, row]")
     return _whole(value[0], path), _whole(value[1], path)
 
 
-def _list(value: object, path: Path) -> list:
+def _list(value: object, path: FieldPath) -> list:
     if not isinstance(value, list):
         raise Unreadable(path, f"{value!r:.60} is not a list")
     return value
 
 
-def _text(value: object, path: Path) -> str:
+def _text(value: object, path: FieldPath) -> str:
     if not isinstance(value, str):
         raise Unreadable(path, f"{value!r:.60} is not a text in quotes")
     return value
 
 
-def _number(value: object, path: Path) -> float:
+def _number(value: object, path: FieldPath) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise Unreadable(path, f"{value!r:.60} is not a number")
     try:
@@ -173,7 +178,7 @@ def _number(value: object, path: Path) -> float:
         raise Unreadable(path, "a number too large") from None
 
 
-def _whole(value: object, path: Path) -> int:
+def _whole(value: object, path: FieldPath) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
         raise Unreadable(path, f"{value!r:.60} is not a whole number")
     if abs(value) > 2**62:
@@ -181,13 +186,13 @@ def _whole(value: object, path: Path) -> int:
     return value
 
 
-def _flag(value: object, path: Path) -> bool:
+def _flag(value: object, path: FieldPath) -> bool:
     if not isinstance(value, bool):
         raise Unreadable(path, f"{value!r:.60} is neither true nor false")
     return value
 
 
-_DECODERS: dict[Any, Callable[[object, Path], Any]] = {
+_DECODERS: dict[Any, Callable[[object, FieldPath], Any]] = {
     str: _text,
     float: _number,
     int: _whole,

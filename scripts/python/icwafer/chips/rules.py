@@ -30,7 +30,7 @@ class Rule:
     @property
     def range(self) -> str:
         """The range as a message says it."""
-        return f"{self.low:g} to {self.high:g}"
+        return f"{self.low:.10g} to {self.high:.10g}"
 
     def allows(self, value: float) -> bool:
         """Whether a number is inside the range; no number (NaN) never is."""

@@ -28,9 +28,10 @@ Share = Union[float, tuple[float, float]]
 
 @dataclass(frozen=True)
 class Macro:
-    """One macro of a kind."""
+    """One macro of a kind, of the group named like its role if the die has such a group."""
 
     kind: Kind
+    role: str = ""
 
 
 @dataclass(frozen=True)
@@ -127,8 +128,12 @@ def tree_plan(
     flips = rng.integers(2, size=(1, 2)).astype(bool)
     blocks = fill(rng, np.array(layout.rects), np.array(layout.kinds), round(block_um * UM))
     starts = np.searchsorted(blocks.macro, np.arange(len(layout.rects) + 1))
-    rect, block = _unfold(_Copies(piece, die, np.array([die]), flips), blocks.rect_nm, starts)
-    return Plan(rect, blocks.kind[block], blocks.macro[block], blocks.cell[block])
+    rect = np.empty((_size(piece, starts), 4), dtype=np.int64)
+    block = np.empty(len(rect), dtype=np.int64)
+    _unfold(_Copies(piece, die, np.array([die]), flips), blocks, starts, rect, block)
+    return Plan(
+        rect, blocks.kind[block], blocks.macro[block], blocks.cell[block], tuple(layout.roles)
+    )
 
 
 @dataclass
@@ -138,10 +143,11 @@ class _Layout:
     rng: np.random.Generator
     rects: list[Rect] = field(default_factory=list)
     kinds: list[Kind] = field(default_factory=list)
+    roles: list[str] = field(default_factory=list)
 
     def place(self, node: Node, rect: Rect) -> _Piece:
         if isinstance(node, Macro):
-            return self._macros([rect], [node.kind])
+            return self._macros([rect], [node.kind], [node.role])
         if isinstance(node, Cut):
             return [self.place(p.node, r) for p, r in zip(node.parts, self._cut(node, rect))]
         if isinstance(node, Twins):
@@ -157,10 +163,11 @@ class _Layout:
         sides, inside = _fitting_frame(rect, round(node.um * UM))
         return [*(self.place(node.side, side) for side in sides), self.place(node.inside, inside)]
 
-    def _macros(self, rects: Sequence[Rect], kinds: Sequence[Kind]) -> range:
+    def _macros(self, rects: Sequence[Rect], kinds: Sequence[Kind], roles: Sequence[str]) -> range:
         first = len(self.rects)
         self.rects += rects
         self.kinds += kinds
+        self.roles += roles
         return range(first, len(self.rects))
 
     def _cut(self, node: Cut, rect: Rect) -> list[Rect]:
@@ -223,24 +230,39 @@ class _Layout:
         bounds = np.cumsum(shares) / sum(shares) * len(rects)
         dealt = np.searchsorted(np.round(bounds), np.arange(len(rects)) + 0.5)
         order = self.rng.permutation(len(rects))
-        return self._macros(
-            [tuple(r) for r in rects.tolist()], [kinds[dealt[place]] for place in order]
-        )
+        dealt_kinds = [kinds[dealt[place]] for place in order]
+        return self._macros([tuple(r) for r in rects.tolist()], dealt_kinds, [""] * len(rects))
+
+
+def _size(piece: _Piece, starts: np.ndarray) -> int:
+    """How many blocks a piece has with all copies."""
+    if isinstance(piece, range):
+        return int(starts[piece.stop] - starts[piece.start])
+    if isinstance(piece, _Copies):
+        return len(piece.targets) * _size(piece.piece, starts)
+    return sum(_size(part, starts) for part in piece)
 
 
 def _unfold(
-    piece: _Piece, rect_nm: np.ndarray, starts: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Rectangles (n, 4) of a piece with all copies, and which filled block (n,) each one is."""
+    piece: _Piece, blocks: Plan, starts: np.ndarray, rect_nm: np.ndarray, block: np.ndarray
+) -> None:
+    """Writes a piece with all copies: rectangles (n, 4), and which filled block (n,) each one is."""
     if isinstance(piece, range):
-        blocks = slice(starts[piece.start], starts[piece.stop])
-        return rect_nm[blocks], np.arange(blocks.start, blocks.stop)
-    if isinstance(piece, _Copies):
-        rect, block = _unfold(piece.piece, rect_nm, starts)
-        targets, flips = piece.targets, piece.flips
-        return copied(rect, piece.source, targets, flips), np.tile(block, len(targets))
-    parts = [_unfold(part, rect_nm, starts) for part in piece]
-    return np.concatenate([r for r, _ in parts]), np.concatenate([b for _, b in parts])
+        first, last = starts[piece.start], starts[piece.stop]
+        rect_nm[:] = blocks.rect_nm[first:last]
+        block[:] = np.arange(first, last)
+    elif isinstance(piece, _Copies):
+        count = _size(piece.piece, starts)
+        original = np.empty((count, 4), dtype=np.int64)
+        _unfold(piece.piece, blocks, starts, original, block[:count])
+        rect_nm[:] = copied(original, piece.source, piece.targets, piece.flips)
+        block[:] = np.tile(block[:count], len(piece.targets))
+    else:
+        first = 0
+        for part in piece:
+            last = first + _size(part, starts)
+            _unfold(part, blocks, starts, rect_nm[first:last], block[first:last])
+            first = last
 
 
 def _fitting_frame(rect: Rect, width_nm: int) -> tuple[list[Rect], Rect]:

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from icwafer.chips.rules import ruled
 
 
@@ -24,7 +22,9 @@ class Drift:
     tilt direction).
     """
 
-    bow: float = ruled("rim against centre: the rim has +bow, the centre -bow", -0.3, 0.3, default=0.0)
+    bow: float = ruled(
+        "rim against centre: the rim has +bow, the centre -bow", -0.3, 0.3, default=0.0
+    )
     ring: float = ruled("centre and rim against the ring between them", -0.3, 0.3, default=0.0)
     tilt: float = ruled("one side against the other", -0.3, 0.3, default=0.0)
     tilt_direction_deg: float = ruled("where the tilt is highest", -360, 360, default=0.0)
@@ -44,13 +44,19 @@ class Wafer:
     die (the layout's second die) instead of products.
     """
 
-    diameter_mm: int = ruled("of a size of SEMI M1: 100, 125, 150, 200 or 300", 100, 300, default=300)
+    diameter_mm: int = ruled(
+        "of a size of SEMI M1: 100, 125, 150, 200 or 300", 100, 300, default=300
+    )
     mark: str = ruled("how its orientation is marked", choices=mark_names, default="notch")
     edge_exclusion_mm: float = ruled("rim without dies", 0, 30, default=3.0)
     bevel_mm: float = ruled("width of the rounded edge", 0, 1, default=0.35)
     scribe_um: float = ruled("lane between dies, where they are cut apart", 0, 1_000, default=80.0)
-    field_columns: int = ruled("dies of one reticle field along x, 0: as many as fit", 0, 1_000, default=0)
-    field_rows: int = ruled("dies of one reticle field along y, 0: as many as fit", 0, 1_000, default=0)
+    field_columns: int = ruled(
+        "dies of one reticle field along x, 0: as many as fit", 0, 1_000, default=0
+    )
+    field_rows: int = ruled(
+        "dies of one reticle field along y, 0: as many as fit", 0, 1_000, default=0
+    )
     partial_dies: bool = ruled("whether dies that the rim cuts are there", default=False)
     test_fields: tuple[tuple[int, int], ...] = ruled("where test dies stand", 0, 1_000, default=())
     seed: int = ruled("start of its random numbers", 0, 2**32 - 1, default=1)
@@ -58,25 +64,11 @@ class Wafer:
     groove: Drift = ruled("drift of the groove's depth", default=Drift())
     width: Drift = ruled("drift of the wires' width", default=Drift())
 
+    @property
+    def radius_mm(self) -> float:
+        return self.diameter_mm / 2
 
-@dataclass(frozen=True)
-class WaferMap:
-    """The n dies of a wafer.
-
-    centre_mm: (n, 2) float64, the middle of each die.
-    die: (n,) int32, index into the layout's dies: 0 for a product.
-    field: (n, 2) int32, the reticle field, counted from the one at the centre.
-    partial: (n,) bool, whether the die reaches over the usable area.
-    oxide_scale, groove_scale, width_scale: (n,) float32, near 1, to multiply the die's own with.
-    """
-
-    centre_mm: np.ndarray
-    die: np.ndarray
-    field: np.ndarray
-    partial: np.ndarray
-    oxide_scale: np.ndarray
-    groove_scale: np.ndarray
-    width_scale: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.centre_mm)
+    @property
+    def usable_radius_mm(self) -> float:
+        """Of the circle that complete dies stay in."""
+        return self.radius_mm - self.edge_exclusion_mm

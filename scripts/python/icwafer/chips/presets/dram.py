@@ -5,25 +5,23 @@ Banks as in JEDEC's DDR4 (JESD79-4: four groups of four); pads in the middle as 
 for packages with wires to the centre. A bank is an array of mats between sense amplifiers, with
 its row decoder at one side and its column decoder towards the middle. What is seen of it is the
 metal above: one main word line for eight word lines (K. Itoh, VLSI Memory Chip Design, 2001). With
-cells of 2F x 3F and F = 65 nm they are 16 F = 1040 nm apart, and half of that is wire.
+cells of 2F x 3F and F = 65 nm they are 16 F = 1040 nm apart; two fifths of that are taken as wire.
 """
 
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
+from icwafer.chips.presets import test_chip
 from icwafer.chips.presets.metals import SKY130_MET2, SKY130_MET4, Metal
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
     STRIP,
-    WIDTH_DRIFT,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring, Tiles, Twins
-from icwafer.chips.wafer import Wafer
 
-_WORD_LINES = Metal(1040, 520, 300)
+_WORD_LINES = Metal(1040, 416, 300)
 
 _BANK = Cut(
     1,
@@ -73,6 +71,7 @@ LAYOUT = Layout(
                 *dark_groups(SKY130_MET4),
             ),
         ),
+        test_chip.DIE,
     ),
-    wafer=Wafer(partial_dies=True, oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(test_fields=((-3, 1), (-3, -2)), partial_dies=True),
 )

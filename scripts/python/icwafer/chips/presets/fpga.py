@@ -9,17 +9,15 @@ chip, so the wiring is that of Intel's 65 nm process. Every tile is a copy of it
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
+from icwafer.chips.presets import test_chip
 from icwafer.chips.presets.metals import INTEL65_M6, INTEL65_M7, INTEL65_M8
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
-    WIDTH_DRIFT,
     chip,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Tiles, Twins
-from icwafer.chips.wafer import Wafer
 
 _LOGIC_TILE = Cut(0, (Part(Macro(Kind.LOGIC), 0.62), Part(Macro(Kind.BUS), 0.38)))
 _COLUMNS = Cut(
@@ -82,6 +80,7 @@ LAYOUT = Layout(
                 *dark_groups(INTEL65_M8),
             ),
         ),
+        test_chip.DIE,
     ),
-    wafer=Wafer(oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(test_fields=((-2, -2), (1, 2))),
 )

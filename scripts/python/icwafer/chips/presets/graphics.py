@@ -3,34 +3,34 @@
 
 Size and arrangement after NVIDIA's H100 (814 mm2; architecture paper, 2022): eight clusters of
 processors around the shared cache and its crossbar, memory interfaces on two sides, links on
-another. Wiring as in Intel's 65 nm process.
+another. Wiring as in Intel's 45 nm process.
 """
 
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
-from icwafer.chips.presets.metals import INTEL65_M6, INTEL65_M7, INTEL65_M8
+from icwafer.chips.presets.metals import INTEL45_M6, INTEL45_M7, INTEL45_M8
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
     STRIP,
-    WIDTH_DRIFT,
     chip,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring, Tiles, Twins
-from icwafer.chips.wafer import Wafer
 
 # A pair of multiprocessors: two halves of arithmetic and register files, and their cache between.
 _HALF = Cut(
     0,
     (
         Part(Region(480.0, ((Kind.LOGIC, 1.0),)), (0.70, 0.76)),
-        Part(Tiles(Macro(Kind.MEMORY), columns=1, rows=2, mirror="y"), (0.22, 0.28)),
+        Part(
+            Tiles(Macro(Kind.MEMORY, "register files"), columns=1, rows=2, mirror="y"),
+            (0.22, 0.28),
+        ),
     ),
 )
-_PROCESSOR = Ring(14.0, STRIP, Twins(1, _HALF, Part(Macro(Kind.MEMORY), (0.10, 0.14))))
+_PROCESSOR = Ring(14.0, STRIP, Twins(1, _HALF, Part(Macro(Kind.MEMORY, "cache"), (0.10, 0.14))))
 _CLUSTER = Ring(
     45.0,
     STRIP,
@@ -44,7 +44,7 @@ _CLUSTER = Ring(
 )
 _CACHE = Twins(
     1,
-    Tiles(Macro(Kind.MEMORY), columns=24, rows=2, mirror="y"),
+    Tiles(Macro(Kind.MEMORY, "shared cache"), columns=24, rows=2, mirror="y"),
     Part(Macro(Kind.BUS), (0.16, 0.22)),
 )
 _CLUSTERS = Tiles(_CLUSTER, columns=4, rows=1, mirror="x")
@@ -90,15 +90,16 @@ LAYOUT = Layout(
             height_mm=26.0,
             block_um=190.0,
             groups=(
-                group("logic", Kind.LOGIC, INTEL65_M8, weight=4.0, across=INTEL65_M7),
-                group("dense logic", Kind.LOGIC, INTEL65_M7, diffraction=0.4, turned=1.0),
-                group("cache", Kind.MEMORY, INTEL65_M7, variation=0.003, diffraction=0.6),
-                group("register files", Kind.MEMORY, INTEL65_M6, variation=0.003, weight=0.6),
-                group("interfaces", Kind.ANALOG, INTEL65_M8, variation=0.02, turned=0.5),
-                group("crossbar", Kind.BUS, INTEL65_M8, variation=0.002, turned=1.0),
-                *dark_groups(INTEL65_M8),
+                group("logic", Kind.LOGIC, INTEL45_M8, weight=4.0, across=INTEL45_M7),
+                group("dense logic", Kind.LOGIC, INTEL45_M7, diffraction=0.4, turned=1.0),
+                group("shared cache", Kind.MEMORY, INTEL45_M7, 0.001, diffraction=0.6, weight=0.0),
+                group("cache", Kind.MEMORY, INTEL45_M6, variation=0.003, turned=1.0),
+                group("register files", Kind.MEMORY, INTEL45_M6, variation=0.003, diffraction=0.6),
+                group("interfaces", Kind.ANALOG, INTEL45_M8, variation=0.02, turned=0.5),
+                group("crossbar", Kind.BUS, INTEL45_M8, variation=0.002, turned=1.0),
+                *dark_groups(INTEL45_M8),
             ),
         ),
     ),
-    wafer=Wafer(oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(),
 )

@@ -8,18 +8,16 @@ the grating, in both directions; converters above and below each column, row dri
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
+from icwafer.chips.presets import test_chip
 from icwafer.chips.presets.metals import SKY130_MET3, SKY130_MET4, Metal
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
     STRIP,
-    WIDTH_DRIFT,
     chip,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring
-from icwafer.chips.wafer import Wafer
 
 _PIXEL = Metal(1550, 400, 500)
 _COLUMN = Metal(2 * 1550, 1000, 350)
@@ -59,9 +57,7 @@ LAYOUT = Layout(
             height_mm=6.36,
             block_um=70.0,
             groups=(
-                group(
-                    "pixels", Kind.PIXEL, _PIXEL, variation=0.0, diffraction=0.7, across=_PIXEL
-                ),
+                group("pixels", Kind.PIXEL, _PIXEL, variation=0.0, diffraction=0.7, across=_PIXEL),
                 group("converters", Kind.BUS, _COLUMN, variation=0.0),
                 group("row drivers", Kind.MEMORY, _PIXEL, variation=0.001, turned=1.0),
                 group("logic", Kind.LOGIC, SKY130_MET4, across=SKY130_MET3),
@@ -69,6 +65,7 @@ LAYOUT = Layout(
                 *dark_groups(SKY130_MET4),
             ),
         ),
+        test_chip.DIE,
     ),
-    wafer=Wafer(oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(test_fields=((2, 2),)),
 )

@@ -30,10 +30,11 @@ INTEL45_M6 = Metal(360, 180, 324)
 INTEL45_M7 = Metal(560, 280, 504)
 INTEL45_M8 = Metal(810, 400, 720)
 
-# Intel 65 nm: P. Bai et al., IEDM 2004, table of the interconnect; half of the pitch is wire.
-INTEL65_M6 = Metal(480, 240, 432)
-INTEL65_M7 = Metal(720, 360, 650)
-INTEL65_M8 = Metal(1080, 540, 975)
+# Intel 65 nm: P. Bai et al., IEDM 2004, table of the interconnect. It does not give widths: two
+# fifths of the period are assumed, for with a half every second order is dark.
+INTEL65_M6 = Metal(480, 192, 432)
+INTEL65_M7 = Metal(720, 288, 650)
+INTEL65_M8 = Metal(1080, 432, 975)
 
 # IHP 130 nm BiCMOS: layout rules of the open design kit SG13G2 (minimum width and distance).
 IHP_METAL5 = Metal(410, 200, 490)

@@ -16,21 +16,23 @@ from icwafer.chips.presets.metals import (
     SKY130_SRAM,
 )
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
     STRIP,
-    WIDTH_DRIFT,
     chip,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring, Slices, Tiles
-from icwafer.chips.wafer import Wafer
 
 _LOGIC = Region(420.0, ((Kind.LOGIC, 1.0),))
-_FLASH = Cut(1, (Part(Tiles(Macro(Kind.MEMORY), columns=2, rows=2, mirror="xy"), 0.85),
-                 Part(Macro(Kind.ANALOG), 0.15)))  # fmt: skip
-_RAM = Tiles(Macro(Kind.MEMORY), columns=2, rows=2, mirror="xy")
+_FLASH = Cut(
+    1,
+    (
+        Part(Tiles(Macro(Kind.MEMORY, "flash"), columns=2, rows=2, mirror="xy"), 0.85),
+        Part(Macro(Kind.ANALOG), 0.15),
+    ),
+)
+_RAM = Tiles(Macro(Kind.MEMORY, "memory"), columns=2, rows=2, mirror="xy")
 
 
 def _apart(*parts: Part) -> Slices:
@@ -63,11 +65,12 @@ LAYOUT = Layout(
                 group("logic", Kind.LOGIC, SKY130_MET4, weight=3.0, across=SKY130_ROW),
                 group("dense logic", Kind.LOGIC, SKY130_MET3, turned=1.0, diffraction=0.4),
                 group("memory", Kind.MEMORY, SKY130_SRAM, variation=0.001, diffraction=0.6),
+                group("flash", Kind.MEMORY, SKY130_MET3, variation=0.001, weight=0.0),
                 group("analog", Kind.ANALOG, SKY130_MET5, variation=0.05, turned=0.5),
                 group("fill", Kind.FILL, SKY130_MET5, variation=0.0, diffraction=0.3),
                 *dark_groups(SKY130_MET5),
             ),
         ),
     ),
-    wafer=Wafer(diameter_mm=200, oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(diameter_mm=200),
 )

@@ -7,15 +7,7 @@ from icwafer.chips.model import Group, Kind
 from icwafer.chips.presets.metals import Metal
 from icwafer.chips.spread import Normal
 from icwafer.chips.tree import Macro, Node, Ring, Tiles
-from icwafer.chips.wafer import Drift
-
-#: Films from a showerhead or a polisher keep their thickness within a few per cent over a wafer,
-#: mostly with the radius; the etch of the grooves less, and the wires' width follows the exposure,
-#: field by field. Usual orders of magnitude: D. Boning and S. Nassif, Models of process variations
-#: in device and interconnect, 2000. Here such that the film's colour changes visibly.
-OXIDE_DRIFT = Drift(bow=0.03, ring=0.012, tilt=0.01, tilt_direction_deg=25.0, noise=0.001)
-GROOVE_DRIFT = Drift(bow=-0.015, ring=0.006, tilt=0.008, tilt_direction_deg=115.0, noise=0.002)
-WIDTH_DRIFT = Drift(bow=0.01, tilt=0.005, tilt_direction_deg=60.0, noise=0.003)
+from icwafer.chips.wafer import Drift, Wafer
 
 STRIP = Macro(Kind.STRIP)
 
@@ -57,6 +49,22 @@ def dark_groups(pads: Metal) -> tuple[Group, ...]:
         Group("channel", Kind.STRIP, Normal(1000.0), diffraction=Normal(0.0)),
         group("pads", Kind.IO, pads, variation=0.01, diffraction=0.3),
         group("seal ring", Kind.SEAL, pads, variation=0.0, diffraction=0.1),
+    )
+
+
+def drifting_wafer(**fields: object) -> Wafer:
+    """A wafer with the usual drift, and other fields as given.
+
+    Films from a showerhead or a polisher keep their thickness within a few per cent over a wafer,
+    mostly with the radius; the etch of the grooves less, and the wires' width follows the
+    exposure. Usual orders of magnitude: D. Boning and S. Nassif, Models of process variations in
+    device and interconnect, 2000. Here such that the film's colour changes visibly.
+    """
+    return Wafer(
+        oxide=Drift(bow=0.03, ring=0.012, tilt=0.01, tilt_direction_deg=25.0, noise=0.001),
+        groove=Drift(bow=-0.015, ring=0.006, tilt=0.008, tilt_direction_deg=115.0, noise=0.002),
+        width=Drift(bow=0.01, tilt=0.005, tilt_direction_deg=60.0, noise=0.003),
+        **fields,
     )
 
 

@@ -11,16 +11,13 @@ from __future__ import annotations
 from icwafer.chips.model import DieSpec, Kind, Layout
 from icwafer.chips.presets.metals import IHP_METAL5, IHP_TOP1, IHP_TOP2
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
     STRIP,
-    WIDTH_DRIFT,
     chip,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring, Slices, Tiles
-from icwafer.chips.wafer import Wafer
 
 _PADS = Tiles(Ring(12.0, STRIP, Macro(Kind.IO)), pitch_um=150.0)
 _TRANSISTOR = Ring(6.0, STRIP, Macro(Kind.BUS))
@@ -76,5 +73,5 @@ LAYOUT = Layout(
             ),
         ),
     ),
-    wafer=Wafer(diameter_mm=200, oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(diameter_mm=200),
 )

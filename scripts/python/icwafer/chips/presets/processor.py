@@ -3,29 +3,27 @@
 
 Size and arrangement after the core die of AMD's Zen 2 (10.32 x 7.34 mm; two complexes of four
 cores, each core with its slice of the shared cache in the middle). The upper wiring layers of that
-7 nm process are not published: those of Intel's 45 nm stand in.
+7 nm process are not published: those of Intel's 65 nm stand in.
 """
 
 from __future__ import annotations
 
 from icwafer.chips.model import DieSpec, Kind, Layout
-from icwafer.chips.presets.metals import INTEL45_M6, INTEL45_M7, INTEL45_M8
+from icwafer.chips.presets import test_chip
+from icwafer.chips.presets.metals import INTEL65_M6, INTEL65_M7, INTEL65_M8
 from icwafer.chips.presets.parts import (
-    GROOVE_DRIFT,
-    OXIDE_DRIFT,
     STRIP,
-    WIDTH_DRIFT,
     chip,
     dark_groups,
+    drifting_wafer,
     group,
 )
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring, Tiles, Twins
-from icwafer.chips.wafer import Wafer
-
-_MEMORY = Macro(Kind.MEMORY)
 
 _L3_SLICE = Twins(
-    1, Tiles(_MEMORY, columns=4, rows=1, mirror="x"), Part(Macro(Kind.LOGIC), 0.10)
+    1,
+    Tiles(Macro(Kind.MEMORY, "shared cache"), columns=4, rows=1, mirror="x"),
+    Part(Macro(Kind.LOGIC), 0.10),
 )
 
 _CORE = Ring(
@@ -35,7 +33,7 @@ _CORE = Ring(
         0,
         (
             Part(Region(430.0, ((Kind.LOGIC, 0.76), (Kind.MEMORY, 0.24))), (0.72, 0.76)),
-            Part(Tiles(_MEMORY, columns=1, rows=4, mirror="y"), (0.20, 0.24)),
+            Part(Tiles(Macro(Kind.MEMORY, "cache"), columns=1, rows=4, mirror="y"), (0.20, 0.24)),
         ),
     ),
 )
@@ -82,15 +80,17 @@ LAYOUT = Layout(
             height_mm=7.34,
             block_um=80.0,
             groups=(
-                group("logic", Kind.LOGIC, INTEL45_M8, weight=4.0, across=INTEL45_M7),
-                group("dense logic", Kind.LOGIC, INTEL45_M7, diffraction=0.4, turned=1.0),
-                group("cache", Kind.MEMORY, INTEL45_M7, variation=0.003, diffraction=0.6),
-                group("register files", Kind.MEMORY, INTEL45_M6, variation=0.003, weight=0.3),
-                group("interfaces", Kind.ANALOG, INTEL45_M8, variation=0.02, turned=0.5),
-                group("interconnect", Kind.BUS, INTEL45_M8, variation=0.002, turned=1.0),
-                *dark_groups(INTEL45_M8),
+                group("logic", Kind.LOGIC, INTEL65_M8, weight=4.0, across=INTEL65_M7),
+                group("dense logic", Kind.LOGIC, INTEL65_M7, diffraction=0.4, turned=1.0),
+                group("shared cache", Kind.MEMORY, INTEL65_M7, 0.001, diffraction=0.6, weight=0.0),
+                group("cache", Kind.MEMORY, INTEL65_M6, variation=0.003, diffraction=0.6),
+                group("register files", Kind.MEMORY, INTEL65_M6, turned=1.0, weight=2.0),
+                group("interfaces", Kind.ANALOG, INTEL65_M8, variation=0.02, turned=0.5),
+                group("interconnect", Kind.BUS, INTEL65_M8, variation=0.002, turned=1.0),
+                *dark_groups(INTEL65_M8),
             ),
         ),
+        test_chip.DIE,
     ),
-    wafer=Wafer(oxide=OXIDE_DRIFT, groove=GROOVE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(test_fields=((-2, 2), (2, -2))),
 )

@@ -44,7 +44,9 @@ UNIFORM_DIE = DieSpec(
     seed=6,
     copies_alike=False,
 )
-NORMAL_DIE = DieSpec(with_spacing(EVEN_GROUPS, Normal(1000, 50 / 3)), name="spacing-normal", seed=6)
+NORMAL_DIE = DieSpec(
+    with_spacing(EVEN_GROUPS, Normal(1000, 50 / 3)), name="spacing-normal", seed=6
+)
 CLUSTERED_DIE = DieSpec(CLUSTERED_GROUPS, name="spacing-clustered", seed=6)
 
 UNIFORM, NORMAL, CLUSTERED = (Layout((die,)) for die in (UNIFORM_DIE, NORMAL_DIE, CLUSTERED_DIE))

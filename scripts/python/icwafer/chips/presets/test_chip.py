@@ -17,19 +17,10 @@ from icwafer.chips.presets.metals import (
     SKY130_SRAM,
     Metal,
 )
-from icwafer.chips.presets.parts import OXIDE_DRIFT, STRIP, WIDTH_DRIFT, dark_groups, group
+from icwafer.chips.presets.parts import STRIP, dark_groups, drifting_wafer, group
 from icwafer.chips.tree import Cut, Macro, Part, Region, Ring, Slices, Tiles
-from icwafer.chips.wafer import Wafer
 
-_FIELD = Ring(25.0, STRIP, Macro(Kind.PIXEL))
 _PADS = Tiles(Ring(14.0, STRIP, Macro(Kind.IO)), pitch_um=120.0)
-_ROW = Cut(
-    1,
-    (
-        Part(_PADS, um=120.0),
-        Part(Cut(0, (Part(_FIELD), Part(_FIELD), Part(_FIELD), Part(_FIELD)))),
-    ),
-)
 _CIRCUITS = Slices(
     (
         Part(Region(300.0, ((Kind.LOGIC, 1.0),)), 0.3),
@@ -37,12 +28,6 @@ _CIRCUITS = Slices(
         Part(Region(250.0, ((Kind.ANALOG, 1.0),)), 0.2),
         Part(Macro(Kind.FILL), 0.2),
     )
-)
-
-TREE = Ring(
-    30.0,
-    Macro(Kind.SEAL),
-    Ring(20.0, STRIP, Cut(1, (Part(_CIRCUITS, 0.9), Part(_ROW), Part(_ROW), Part(_ROW)))),
 )
 
 _FIELDS = (
@@ -54,7 +39,24 @@ _FIELDS = (
     ("bit cells", SKY130_SRAM),
     ("step 2.0", Metal(2000, 800, 800)),
     ("rows", SKY130_ROW),
+    ("step 2.4", Metal(2400, 1000, 800)),
+    ("step 1.7", Metal(1700, 700, 800)),
+    ("step 0.8", Metal(800, 350, 800)),
     ("met5", SKY130_MET5),
+)
+
+
+def _row(first: int) -> Cut:
+    """Pads, and four fields above them."""
+    names = [name for name, _ in _FIELDS[first : first + 4]]
+    fields = [Ring(25.0, STRIP, Macro(Kind.PIXEL, f"field {name}")) for name in names]
+    return Cut(1, (Part(_PADS, um=120.0), Part(Cut(0, tuple(map(Part, fields))))))
+
+
+TREE = Ring(
+    30.0,
+    Macro(Kind.SEAL),
+    Ring(20.0, STRIP, Cut(1, (Part(_CIRCUITS, 0.9), *(Part(_row(at)) for at in (0, 4, 8))))),
 )
 
 DIE = DieSpec(
@@ -81,5 +83,5 @@ DIE = DieSpec(
 
 LAYOUT = Layout(
     dies=(DIE,),
-    wafer=Wafer(diameter_mm=150, mark="flats", oxide=OXIDE_DRIFT, width=WIDTH_DRIFT),
+    wafer=drifting_wafer(diameter_mm=150, mark="flats"),
 )

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+
+/* Several wavelengths at once. `Lanes` is a vector of floats where the compiler has them (GCC and
+ * Clang on a CPU, whatever its instruction set), and a single float elsewhere, as on a GPU, where
+ * each thread has its own wavelengths and registers are scarce. Arithmetic and comparisons are the
+ * operators of the type; `mask ? a : b` selects lane by lane.
+ *
+ * The functions here are for the ranges that the optics needs, with a relative error below 1e-6.
+ */
+
+#pragma once
+
+#include "platform.h"
+
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__) && !defined(__METAL_VERSION__)
+#  define ICW_VECTOR_LANES
+#endif
+
+namespace icwafer {
+
+#ifdef ICW_VECTOR_LANES
+
+constexpr int lane_count = 8;
+typedef float Lanes __attribute__((vector_size(4 * lane_count)));
+typedef int LanesInt __attribute__((vector_size(4 * lane_count)));
+
+ICW_DEVICE Lanes lanes(const float x)
+{
+  return Lanes{} + x;
+}
+
+ICW_DEVICE float get_lane(const Lanes &x, const int lane)
+{
+  return x[lane];
+}
+
+/* The values of lane_count floats. */
+ICW_DEVICE Lanes load_lanes(const float *x)
+{
+  Lanes result;
+  __builtin_memcpy(&result, x, sizeof(result));
+  return result;
+}
+
+ICW_DEVICE Lanes lanes_sqrt(Lanes x)
+{
+  for (int lane = 0; lane < lane_count; lane++) {
+    x[lane] = sqrtf(x[lane]);
+  }
+  return x;
+}
+
+/* Writes lane_count whole parts and fractions of x >= 0. */
+ICW_DEVICE void split_lanes(const Lanes x, int *whole, float *fraction)
+{
+  const LanesInt i = __builtin_convertvector(x, LanesInt);
+  const Lanes f = x - __builtin_convertvector(i, Lanes);
+  __builtin_memcpy(whole, &i, sizeof(i));
+  __builtin_memcpy(fraction, &f, sizeof(f));
+}
+
+ICW_DEVICE void store_lanes(const Lanes x, float *to)
+{
+  __builtin_memcpy(to, &x, sizeof(x));
+}
+
+/* The nearest whole number; |x| < 2^31. */
+ICW_DEVICE Lanes lanes_round(const Lanes x)
+{
+  const Lanes half = x < 0.0f ? lanes(-0.5f) : lanes(0.5f);
+  return __builtin_convertvector(__builtin_convertvector(x + half, LanesInt), Lanes);
+}
+
+/* 2^x for -126 <= x <= 126: the whole part goes into the exponent, for the rest on [-1/2, 1/2]
+ * the Taylor series of 2^x. */
+ICW_DEVICE Lanes lanes_exp2(const Lanes x)
+{
+  const Lanes whole = lanes_round(x);
+  const Lanes t = (x - whole) * 0.69314718f;
+  const Lanes series = 1.0f +
+                       t * (1.0f +
+                            t * (0.5f + t * (1.6666667e-1f +
+                                             t * (4.1666667e-2f +
+                                                  t * (8.3333333e-3f + t * 1.3888889e-3f)))));
+  const LanesInt bits = (__builtin_convertvector(whole, LanesInt) + 127) << 23;
+  return series * (Lanes)bits;
+}
+
+#else
+
+constexpr int lane_count = 1;
+typedef float Lanes;
+
+ICW_DEVICE Lanes lanes(const float x)
+{
+  return x;
+}
+
+ICW_DEVICE float get_lane(const Lanes x, const int)
+{
+  return x;
+}
+
+ICW_DEVICE Lanes load_lanes(const float *x)
+{
+  return *x;
+}
+
+ICW_DEVICE Lanes lanes_sqrt(const Lanes x)
+{
+  return sqrtf(x);
+}
+
+ICW_DEVICE void split_lanes(const Lanes x, int *whole, float *fraction)
+{
+  *whole = int(x);
+  *fraction = x - float(*whole);
+}
+
+ICW_DEVICE void store_lanes(const Lanes x, float *to)
+{
+  *to = x;
+}
+
+ICW_DEVICE Lanes lanes_round(const Lanes x)
+{
+  return floorf(x + 0.5f);
+}
+
+ICW_DEVICE Lanes lanes_exp2(const Lanes x)
+{
+  return exp2f(x);
+}
+
+#endif
+
+ICW_DEVICE Lanes lanes_min(const Lanes a, const Lanes b)
+{
+  return a < b ? a : b;
+}
+
+ICW_DEVICE Lanes lanes_max(const Lanes a, const Lanes b)
+{
+  return a > b ? a : b;
+}
+
+ICW_DEVICE float lanes_largest(const Lanes x)
+{
+  float largest = get_lane(x, 0);
+  for (int lane = 1; lane < lane_count; lane++) {
+    largest = larger(largest, get_lane(x, lane));
+  }
+  return largest;
+}
+
+ICW_DEVICE float lanes_sum(const Lanes x)
+{
+  float sum = get_lane(x, 0);
+  for (int lane = 1; lane < lane_count; lane++) {
+    sum += get_lane(x, lane);
+  }
+  return sum;
+}
+
+/* exp(-x^2 / 2), 0 below 1e-18. */
+ICW_DEVICE Lanes lanes_bell(const Lanes x)
+{
+  const Lanes exponent = -0.72134752f * x * x;
+  return exponent > -60.0f ? lanes_exp2(lanes_max(exponent, lanes(-60.0f))) : lanes(0.0f);
+}
+
+/* Gaussian density of standard deviation sigma. */
+ICW_DEVICE Lanes lanes_gaussian(const Lanes x, const Lanes sigma)
+{
+  return 0.39894228f / sigma * lanes_bell(x / sigma);
+}
+
+namespace lanes_detail {
+
+/* sin(2 pi t) for -1/4 <= t <= 1/4, the Taylor series. */
+ICW_DEVICE Lanes sin_quarter(const Lanes t)
+{
+  const Lanes a = two_pi * t;
+  const Lanes a2 = a * a;
+  return a *
+         (1.0f + a2 * (-1.6666667e-1f +
+                       a2 * (8.3333333e-3f +
+                             a2 * (-1.9841270e-4f + a2 * (2.7557319e-6f + a2 * -2.5052108e-8f)))));
+}
+
+}  // namespace lanes_detail
+
+/* Sine and cosine of 2 pi turns, folded to a quarter on either side of 0. */
+ICW_DEVICE void lanes_sincos_turns(const Lanes turns, Lanes &sine, Lanes &cosine)
+{
+  const Lanes t = turns - lanes_round(turns);
+  const Lanes magnitude = lanes_max(t, -t);
+  const Lanes folded = lanes_min(magnitude, 0.5f - magnitude);
+  sine = lanes_detail::sin_quarter(t < 0.0f ? -folded : folded);
+  cosine = lanes_detail::sin_quarter(0.25f - magnitude);
+}
+
+ICW_DEVICE Lanes lanes_sin_turns(const Lanes turns)
+{
+  const Lanes t = turns - lanes_round(turns);
+  const Lanes magnitude = lanes_max(t, -t);
+  const Lanes folded = lanes_min(magnitude, 0.5f - magnitude);
+  return lanes_detail::sin_quarter(t < 0.0f ? -folded : folded);
+}
+
+ICW_DEVICE Lanes lanes_cos_turns(const Lanes turns)
+{
+  const Lanes t = turns - lanes_round(turns);
+  return lanes_detail::sin_quarter(0.25f - lanes_max(t, -t));
+}
+
+}  // namespace icwafer

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+
+/* The orders of wires of a given duty cycle, summed.
+ *
+ * A lattice of ridges, f of each period wide, sends into order m != 0 the part
+ *
+ *   A(m)^2 = (sin(pi m f) / (pi m))^2
+ *
+ * of the squared difference of the amplitudes of ridge and groove. Its lobe is a Gaussian in the
+ * fractional order x = u d / lambda; its width w(m)^2 = w_0^2 + (variation m)^2 has a part that is
+ * the same for all orders and one from the spread of the spacing itself. */
+
+#pragma once
+
+#include "lanes.h"
+
+namespace icwafer {
+
+/* Ridges and grooves side by side: period, and the part of it that is ridge. A period of 0 means
+ * that there is no such lattice. */
+struct Lattice {
+  float spacing_nm, duty;
+};
+
+/* The part of the area that one or the other lattice covers. */
+ICW_DEVICE float covered(const Lattice a, const Lattice b)
+{
+  const float duty_b = b.spacing_nm > 0.0f ? b.duty : 0.0f;
+  return 1.0f - (1.0f - a.duty) * (1.0f - duty_b);
+}
+
+/* A(m); A(0) = f. */
+ICW_DEVICE Lanes order_amplitude(const Lanes m, const Lanes duty)
+{
+  const Lanes divisor = m == 0.0f ? lanes(1.0f) : m;
+  return m == 0.0f ? duty : lanes_sin_turns(0.5f * m * duty) / (pi * divisor);
+}
+
+/* Sum over m != 0 of A(m)^2 Gaussian(x - m; w(m)).
+ *
+ * As A(m)^2 is the same for f and 1 - f, f <= 1/2 here. Two things bound the number of terms,
+ * both from the Fourier transform of A^2, the triangle f - |y| that is the ridge's
+ * autocorrelation, under the Gaussian exp(-2 pi^2 w^2 y^2):
+ *
+ * - Beyond |y| = 0.6 / w the Gaussian has vanished. A ridge that reaches further is as good as
+ *   one of f' = 0.6 / w, but for the area of the triangle's tip: (f - f') Gaussian(x; w).
+ * - What is left has the bandwidth f' + 0.67 / w; where that is below 1 / s, a sum over every s-th
+ *   order, times s, is the same sum (the sampling theorem; s need not be whole).
+ *
+ * So at most 13 terms are needed, for any number of orders in a lobe. */
+ICW_DEVICE_LARGE Lanes order_sum(const Lanes x,
+                                 const Lanes w_0,
+                                 const float duty,
+                                 const float variation)
+{
+  const float f = duty < 0.5f ? duty : 1.0f - duty;
+  const Lanes spread = variation * x;
+  const Lanes w = lanes_sqrt(w_0 * w_0 + spread * spread);
+  const float w_most = lanes_largest(w);
+  const float w_least = -lanes_largest(-w);
+  const Lanes f_seen = lanes_min(lanes(f), 0.6f / w);
+  const float stride = larger(1.0f, 1.0f / (smaller(f, 0.6f / w_least) + 0.67f / w_least));
+  const int reach = int(smaller(4.2f * w_most / stride + 0.5f, 8.0f));
+
+  const Lanes nearest = lanes_round(x / stride);
+  const Lanes per_w_0 = 1.0f / w_0;
+  Lanes sum = lanes(0.0f);
+  for (int j = -reach; j <= reach; j++) {
+    const Lanes m = (nearest + float(j)) * stride;
+    const Lanes amplitude = order_amplitude(m, f_seen);
+    Lanes per_w = per_w_0;
+    if (variation > 0.0f) {
+      const Lanes spread_m = variation * m;
+      per_w = 1.0f / lanes_sqrt(w_0 * w_0 + spread_m * spread_m);
+    }
+    sum += amplitude * amplitude * per_w * lanes_bell((x - m) * per_w);
+  }
+  const Lanes tip = (f - f_seen - f * f) * per_w_0 * lanes_bell(x * per_w_0);
+  return 0.39894228f * lanes_max(stride * sum + tip, lanes(0.0f));
+}
+
+/* The same where the orders are too close for any of them to be told from its neighbours in
+ * wavelength: their mean density, x far from 0. The mean of 1 / m^2 under the Gaussian is
+ * (1 + 3 r^2 + 15 r^4 + ...) / x^2, r = w / x. */
+ICW_DEVICE Lanes order_density(const Lanes x,
+                               const Lanes w_0,
+                               const float duty,
+                               const bool fringes)
+{
+  const Lanes per_x = 1.0f / (pi * x);
+  const Lanes r = w_0 / x;
+  const Lanes mean = 0.5f * per_x * per_x * (1.0f + r * r * (3.0f + 15.0f * r * r));
+  if (!fringes) {
+    return mean;
+  }
+  return mean * (1.0f - lanes_bell(two_pi * duty * w_0) * lanes_cos_turns(x * duty));
+}
+
+}  // namespace icwafer

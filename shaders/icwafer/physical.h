@@ -1,0 +1,611 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+
+/* The PHYSICAL model: metal wires under oxide as a phase grating, in one amplitude formula.
+ *
+ * The surface has two levels. On the ridges (the wires) oxide of thickness h covers the metal, in
+ * the grooves oxide of thickness h + t covers metal that lies deeper by t. Each level reflects
+ * with the amplitude r of its film stack (film.h). Ridges fill the part f of a period, and a
+ * second family of wires at 90 degrees may cross the first at the same level. The pattern's
+ * Fourier series gives the amplitude of order (m, n), in the scalar (Fraunhofer) approximation
+ * (Goodman, "Introduction to Fourier Optics", 3rd ed., section 4.4):
+ *
+ *   eta_mn = U_mn^2 |r_ridge - r_groove|^2                         (m, n) != (0, 0)
+ *   eta_00 = |F r_ridge + (1 - F) r_groove|^2,  F = 1 - (1 - f_u)(1 - f_v)
+ *   U_m0 = A_u(m) (1 - f_v),  U_0n = A_v(n) (1 - f_u),  U_mn = A_u(m) A_v(n)
+ *
+ * with A(m) = sin(pi m f) / (pi m), s and p averaged, and the cosine of the angle of incidence
+ * the mean of those of the two directions, which makes it reciprocal. The BRDF is the density of
+ * reflected power in direction cosines,
+ *
+ *   f = sum_mn eta_mn G(u - m lambda / d_u; sigma_m) G(v - n lambda / d_v; sigma_n)
+ *
+ * and a lobe's width comes from the coherence width W, the roughness and the spread of the
+ * spacing: sigma_m^2 = (0.376 lambda / W)^2 + sigma_rough^2 + (variation m lambda / d)^2 (0.376
+ * turns the full width at half maximum 0.886 lambda / W of an aperture W wide into a Gaussian's).
+ *
+ * Energy. At one cosine, Parseval's theorem gives sum eta = F |r_ridge|^2 + (1 - F) |r_groove|^2
+ * <= 1. As each order has its own cosine, the sum may pass 1. The orders other than (0, 0) never
+ * do so alone: their U^2 add up to F (1 - F) <= 1/4, and |r_ridge - r_groove|^2 <= 4. So the
+ * mirror order, whose pair of directions no other order shares, gives way:
+ *
+ *   eta_00' = min(eta_00, 1 - sum of the others)
+ *
+ * which is the same in both directions, and leaves everything else as it is. */
+
+#pragma once
+
+#include "film.h"
+#include "grating.h"
+#include "illuminants.h"
+#include "metals.h"
+#include "order_sum.h"
+#include "oxides.h"
+#include "spectrum.h"
+
+namespace icwafer {
+
+struct PhysicalParams {
+  /* Wires, and those that cross them. */
+  Lattice across, along;
+  float oxide_nm, groove_nm;
+  /* Standard deviation of a lobe in u from coherence, per nanometre of wavelength; from
+   * roughness; relative spread of the spacing. */
+  float coherence_per_nm, roughness, variation;
+  Cauchy oxide;
+  /* Index of metal_custom in red, green and blue light. */
+  float custom_n[3], custom_k[3];
+  Metal metal;
+  Illuminant illuminant;
+};
+
+/* 0.376 is 0.886 / (2 sqrt(2 ln 2)). */
+ICW_DEVICE float physical_coherence_per_nm(const float coherence_width_um)
+{
+  return 0.376f / (1000.0f * clamped(coherence_width_um, 0.5f, 2000.0f));
+}
+
+/* A facet that is tilted by the slope z turns light by 2 z; GGX of width alpha has slopes of
+ * about alpha / sqrt(2) in each direction. */
+ICW_DEVICE float physical_roughness_sigma(const float roughness)
+{
+  return 1.4142136f * square(clamped(roughness, 0.0f, 0.6f));
+}
+
+/* A lattice of wires; none where the spacing is not positive. */
+ICW_DEVICE Lattice physical_lattice(const float spacing_nm, const float width_nm)
+{
+  if (!(spacing_nm > 0.0f)) {
+    return {0.0f, 0.0f};
+  }
+  const float spacing = clamped(spacing_nm, 50.0f, 1e6f);
+  return {spacing, clamped(width_nm / spacing, 0.0f, 1.0f)};
+}
+
+/* A component of the index of metal_custom, kept to what can be divided by. */
+ICW_DEVICE float physical_custom_index(const float component)
+{
+  return clamped(component, 0.02f, 20.0f);
+}
+
+/* The parameters with everything inside the range for which the formulas are meant, whatever an
+ * artist's texture says. Without wires across (a spacing of 0 or below) those along remain. */
+ICW_DEVICE PhysicalParams physical_params(const Lattice across,
+                                          const Lattice along,
+                                          const float oxide_nm,
+                                          const float groove_nm,
+                                          const float coherence_width_um,
+                                          const float roughness,
+                                          const float variation,
+                                          const Oxide oxide,
+                                          const float custom_oxide_ior,
+                                          const Metal metal,
+                                          const Illuminant illuminant)
+{
+  PhysicalParams p = {};
+  /* Wires of width 0 are no wires: a mirror under oxide. */
+  p.across = across.spacing_nm > 0.0f ? across : Lattice{1000.0f, 0.0f};
+  p.along = along.duty > 0.0f ? along : Lattice{0.0f, 0.0f};
+  p.oxide_nm = clamped(oxide_nm, 0.0f, 1e4f);
+  p.groove_nm = clamped(groove_nm, 0.0f, 1e4f);
+  p.coherence_per_nm = physical_coherence_per_nm(coherence_width_um);
+  p.roughness = physical_roughness_sigma(roughness);
+  p.variation = clamped(variation, 0.0f, 0.3f);
+  p.oxide = oxide_series(oxide, clamped(custom_oxide_ior, 1.0f, 5.0f));
+  p.metal = metal;
+  p.illuminant = illuminant;
+  return p;
+}
+
+/* The index of metal_custom in red, green and blue light. */
+ICW_DEVICE void physical_set_custom_metal(PhysicalParams &p,
+                                          const float n_red,
+                                          const float n_green,
+                                          const float n_blue,
+                                          const float k_red,
+                                          const float k_green,
+                                          const float k_blue)
+{
+  p.custom_n[0] = physical_custom_index(n_red);
+  p.custom_n[1] = physical_custom_index(n_green);
+  p.custom_n[2] = physical_custom_index(n_blue);
+  p.custom_k[0] = physical_custom_index(k_red);
+  p.custom_k[1] = physical_custom_index(k_green);
+  p.custom_k[2] = physical_custom_index(k_blue);
+}
+
+namespace physical_detail {
+
+constexpr float first_nm = float(visible_first_nm);
+constexpr float last_nm = float(visible_last_nm);
+/* The shortest wavelength that matters to the eye: fringes are finest there. */
+constexpr float blue_nm = 420.0f;
+/* Bandwidth of a Gaussian of standard deviation 1 that leaves 0.1 % of it, and where it is cut
+ * off. */
+constexpr float gaussian_bandwidth = 3.8f;
+constexpr float lobe_reach = 4.5f;
+/* More orders than this are not summed one by one. */
+constexpr int window_limit = 24;
+
+/* Variance of the lobe around order * lambda / d in u. `shift` is order * lambda / d. */
+template<typename Real>
+ICW_DEVICE Real lobe_variance(const PhysicalParams &p, const Real wavelength_nm, const Real shift)
+{
+  const Real coherence = p.coherence_per_nm * wavelength_nm;
+  const Real spread = p.variation * shift;
+  return coherence * coherence + square(p.roughness) + spread * spread;
+}
+
+}  // namespace physical_detail
+
+/* Variance of the mirror lobe in u at a mean wavelength. */
+ICW_DEVICE float physical_lobe_variance(const PhysicalParams &p)
+{
+  return physical_detail::lobe_variance(p, 550.0f, 0.0f);
+}
+
+namespace physical_detail {
+
+/* Index of metal_custom: linear between the wavelengths of sRGB's blue, green and red. */
+ICW_DEVICE ComplexIndex custom_index(const PhysicalParams &p, const float wavelength_nm)
+{
+  constexpr float blue = 464.0f, green = 549.0f, red = 612.0f;
+  const float to_green = clamped((wavelength_nm - blue) / (green - blue), 0.0f, 1.0f);
+  const float to_red = clamped((wavelength_nm - green) / (red - green), 0.0f, 1.0f);
+  return {p.custom_n[2] + to_green * (p.custom_n[1] - p.custom_n[2]) +
+              to_red * (p.custom_n[0] - p.custom_n[1]),
+          p.custom_k[2] + to_green * (p.custom_k[1] - p.custom_k[2]) +
+              to_red * (p.custom_k[0] - p.custom_k[1])};
+}
+
+/* The two levels, the mean of both polarisations. */
+ICW_DEVICE FilmPair<Lanes> levels(const PhysicalParams &p,
+                                  const Lanes cosine,
+                                  const Lanes film_ior,
+                                  const Complex<Lanes> metal,
+                                  const Lanes per_nm)
+{
+  return unpolarised(film_on_metal<Lanes>(
+      cosine, film_ior, metal, p.oxide_nm * per_nm, (p.oxide_nm + p.groove_nm) * per_nm));
+}
+
+/* What is the same for all wavelengths of one evaluation. u and v are |u|, |v|: the lattices have
+ * no preferred side. */
+struct Pair {
+  float u, v;
+  float cosine;
+  /* Half the difference of the two directions, in the surface: near the mirror direction, where
+   * the light comes from. */
+  float mid_nu, mid_tau;
+};
+
+/* Orders +-m of one axis in groups, wider and wider (1, 2, 3-4, 5-7, 8-11, ...): the middle of
+ * each, and U^2 for one side of it. */
+constexpr int group_limit = 9;
+
+struct OrderGroups {
+  int count;
+  float order[group_limit], weight[group_limit];
+  /* Twice U^2 of all orders beyond. */
+  float rest;
+};
+
+ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
+{
+  OrderGroups groups;
+  groups.count = 0;
+  groups.rest = 0.0f;
+  if (!(lattice.spacing_nm > 0.0f)) {
+    return groups;
+  }
+  /* A(m)^2 = (1 - cos(2 pi m f)) / (2 pi^2 m^2); the cosines by Chebyshev's recurrence. */
+  const float cosine_1 = cosf(two_pi * lattice.duty);
+  float cosine = cosine_1, before = 1.0f;
+  float left = lattice.duty * (1.0f - lattice.duty);
+  int first = 1;
+  for (; groups.count < group_limit; groups.count++) {
+    const int last = first + (2 * first) / 5;
+    float weight = 0.0f;
+    for (int m = first; m <= last; m++) {
+      weight += (1.0f - cosine) / (2.0f * square(pi * float(m)));
+      const float next = 2.0f * cosine_1 * cosine - before;
+      before = cosine;
+      cosine = next;
+    }
+    groups.order[groups.count] = 0.5f * float(first + last);
+    groups.weight[groups.count] = square(open) * larger(weight, 0.0f);
+    left -= 2.0f * weight;
+    first = last + 1;
+  }
+  groups.rest = square(open) * larger(left, 0.0f);
+  return groups;
+}
+
+/* What bounds the mirror order: all others, for light from the pair's middle direction. */
+struct MirrorBound {
+  OrderGroups across, along;
+  /* U^2 of the orders with m and n, few and taken at the most that they can be. */
+  float diagonal;
+};
+
+ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p)
+{
+  const bool cross = p.along.spacing_nm > 0.0f;
+  return {order_groups(p.across, cross ? 1.0f - p.along.duty : 1.0f),
+          order_groups(p.along, 1.0f - p.across.duty),
+          cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
+                  0.0f};
+}
+
+/* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
+ * most wavelengths need only the first few for the bound to be out of reach. */
+ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
+                                      const Pair &pair,
+                                      const MirrorBound &bound,
+                                      const Lanes eta,
+                                      const Lanes film_ior,
+                                      const Complex<Lanes> metal,
+                                      const Lanes per_nm)
+{
+  const float cosine = sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f));
+  Lanes others = lanes(4.0f * bound.diagonal);
+  /* Groups of each axis that may be above the horizon. */
+  int used[2] = {bound.across.count, bound.along.count};
+  float rest = bound.across.rest + bound.along.rest;
+  for (int axis = 0; axis < 2; axis++) {
+    const OrderGroups &groups = axis == 0 ? bound.across : bound.along;
+    for (int group = 0; group < groups.count; group++) {
+      rest += 2.0f * groups.weight[group];
+    }
+  }
+
+  for (int group = 0; group < group_limit; group++) {
+    for (int axis = 0; axis < 2; axis++) {
+      const OrderGroups &groups = axis == 0 ? bound.across : bound.along;
+      if (group >= used[axis]) {
+        continue;
+      }
+      const float spacing_nm = axis == 0 ? p.across.spacing_nm : p.along.spacing_nm;
+      const float mid = axis == 0 ? pair.mid_nu : pair.mid_tau;
+      const float mid_other = axis == 0 ? pair.mid_tau : pair.mid_nu;
+      const Lanes shift = groups.order[group] / (spacing_nm * per_nm);
+      rest -= 2.0f * groups.weight[group];
+      bool above_horizon = false;
+      for (int side = -1; side <= 1; side += 2) {
+        const Lanes sine = mid + float(side) * shift;
+        const Lanes cos_squared = 1.0f - square(mid_other) - sine * sine;
+        if (lanes_largest(cos_squared) > 0.0f) {
+          above_horizon = true;
+          const Lanes c = 0.5f * (cosine + lanes_sqrt(lanes_max(cos_squared, lanes(0.0f))));
+          const Lanes power = groups.weight[group] *
+                              levels(p, c, film_ior, metal, per_nm).contrast;
+          others += cos_squared > 0.0f ? power : lanes(0.0f);
+        }
+      }
+      if (!above_horizon) {
+        /* Nor are those beyond. */
+        for (int beyond = group + 1; beyond < groups.count; beyond++) {
+          rest -= 2.0f * groups.weight[beyond];
+        }
+        rest -= groups.rest;
+        used[axis] = 0;
+      }
+    }
+    if (lanes_largest(eta + others) + 4.0f * rest <= 1.0f) {
+      return eta;
+    }
+  }
+  return lanes_max(lanes_min(eta, 1.0f - 4.0f * rest - others), lanes(0.0f));
+}
+
+/* How the orders of the axis with the longer component of q are summed. */
+enum class Orders {
+  /* Out of reach. */
+  None,
+  /* One order for each node, where the lobes leave gaps in the spectrum. */
+  Single,
+  /* All orders at each node. */
+  All,
+  /* Their mean density. */
+  Dense,
+};
+
+/* Nodes of the integration over the wavelengths, gathered until all lanes are full. */
+template<typename Tables>
+struct Integrator {
+  const PhysicalParams &p;
+  const Pair &pair;
+  const Tables &tables;
+  /* The axis along which q is longer comes first. */
+  Lattice first, second;
+  float q_first, q_second;
+  Orders orders;
+  bool mirror, dense_fringes;
+  MirrorBound bound;
+
+  float wavelength_nm[lane_count], step_nm[lane_count], order[lane_count];
+  int count;
+  Rgb sum, sum_weight;
+
+  ICW_DEVICE_METHOD void add(const float node_nm, const float node_step_nm, const float node_order)
+  {
+    wavelength_nm[count] = node_nm;
+    step_nm[count] = node_step_nm;
+    order[count] = node_order;
+    if (++count == lane_count) {
+      flush();
+    }
+  }
+
+  /* Adds up the nodes gathered so far. */
+  ICW_DEVICE_LARGE_METHOD void flush()
+  {
+    if (count == 0) {
+      return;
+    }
+    for (; count < lane_count; count++) {
+      wavelength_nm[count] = wavelength_nm[0];
+      step_nm[count] = 0.0f;
+      order[count] = order[0];
+    }
+    count = 0;
+
+    /* Nodes are inside the visible range, so there is a next entry in the tables. */
+    const Lanes wavelength = load_lanes(wavelength_nm);
+    int cell[lane_count];
+    float part[lane_count], n[lane_count], k[lane_count], f[lane_count];
+    split_lanes(wavelength - first_nm, cell, part);
+    for (int lane = 0; lane < lane_count; lane++) {
+      const ComplexIndex a = metal_index(cell[lane]), b = metal_index(cell[lane] + 1);
+      n[lane] = a.n + part[lane] * (b.n - a.n);
+      k[lane] = a.k + part[lane] * (b.k - a.k);
+    }
+    store_lanes(reflected(wavelength, load_lanes(order), {load_lanes(n), load_lanes(k)}), f);
+
+    Rgb total = sum, total_weight = sum_weight;
+    for (int lane = 0; lane < lane_count; lane++) {
+      const Rgb a = tables.sensitivity(p.illuminant, cell[lane]);
+      const Rgb b = tables.sensitivity(p.illuminant, cell[lane] + 1);
+      const float weight_b = part[lane] * step_nm[lane];
+      const Rgb s = (step_nm[lane] - weight_b) * a + weight_b * b;
+      total = total + f[lane] * s;
+      total_weight = total_weight + s;
+    }
+    sum = total;
+    sum_weight = total_weight;
+  }
+
+  /* Index of the metal at number `cell` of the visible range. */
+  ICW_DEVICE_METHOD ComplexIndex metal_index(const int cell) const
+  {
+    return p.metal == metal_custom ? custom_index(p, first_nm + float(cell)) :
+                                     tables.metal(p.metal, cell);
+  }
+
+  /* f at the wavelengths of the nodes. */
+  ICW_DEVICE_METHOD Lanes reflected(const Lanes wavelength,
+                                    const Lanes node_order,
+                                    const Complex<Lanes> metal) const
+  {
+    const Lanes per_nm = 1.0f / wavelength;
+    const Lanes film_ior = cauchy_index(p.oxide, per_nm);
+    const FilmPair<Lanes> r = levels(p, lanes(pair.cosine), film_ior, metal, per_nm);
+    const Lanes sigma = lanes_sqrt(lobe_variance(p, wavelength, lanes(0.0f)));
+    const Lanes zero_second = lanes_gaussian(lanes(q_second), sigma);
+    const float open_first = first.spacing_nm > 0.0f ? 1.0f - first.duty : 1.0f;
+    const float open_second = second.spacing_nm > 0.0f ? 1.0f - second.duty : 1.0f;
+    const Lanes others_second = all_orders(second, q_second, sigma, per_nm);
+    const Lanes others_first = first_orders(wavelength, node_order, sigma, per_nm);
+
+    Lanes f = r.contrast * others_first * (square(open_second) * zero_second + others_second);
+    if (mirror) {
+      const float ridge_part = covered(p.across, p.along);
+      const float groove_part = 1.0f - ridge_part;
+      Lanes eta = ridge_part * r.ridge + groove_part * r.groove -
+                  ridge_part * groove_part * r.contrast;
+      if (lanes_largest(eta) > 1.0f - 4.0f * ridge_part * groove_part) {
+        eta = bounded_mirror(p, pair, bound, eta, film_ior, metal, per_nm);
+      }
+      f += lanes_gaussian(lanes(q_first), sigma) *
+           (eta * zero_second + square(open_first) * r.contrast * others_second);
+    }
+    return f;
+  }
+
+  /* Sum over the orders but 0 of A^2 G along one axis. */
+  ICW_DEVICE_METHOD Lanes all_orders(const Lattice lattice,
+                                     const float q,
+                                     const Lanes sigma,
+                                     const Lanes per_nm) const
+  {
+    if (!(lattice.spacing_nm > 0.0f)) {
+      return lanes(0.0f);
+    }
+    const Lanes per_shift = lattice.spacing_nm * per_nm;
+    return per_shift * order_sum(q * per_shift, sigma * per_shift, lattice.duty, p.variation);
+  }
+
+  ICW_DEVICE_METHOD Lanes first_orders(const Lanes wavelength,
+                                       const Lanes node_order,
+                                       const Lanes sigma,
+                                       const Lanes per_nm) const
+  {
+    if (orders == Orders::None) {
+      return lanes(0.0f);
+    }
+    if (orders == Orders::All) {
+      return all_orders(first, q_first, sigma, per_nm);
+    }
+    if (orders == Orders::Dense) {
+      const Lanes per_shift = first.spacing_nm * per_nm;
+      return per_shift *
+             order_density(q_first * per_shift, sigma * per_shift, first.duty, dense_fringes);
+    }
+    const Lanes shift = node_order * wavelength / first.spacing_nm;
+    const Lanes amplitude = order_amplitude(node_order, lanes(first.duty));
+    const Lanes sigma_m = p.variation > 0.0f ? lanes_sqrt(lobe_variance(p, wavelength, shift)) :
+                                               sigma;
+    return amplitude * amplitude * lanes_gaussian(q_first - shift, sigma_m);
+  }
+};
+
+}  // namespace physical_detail
+
+/* f, integrated over the spectrum; not multiplied by the cosine.
+ *
+ * Given u and v the wavelengths are known, so nothing is chosen at random. The trapezoid rule
+ * with step h is exact for a product of bandwidth below 2 pi / h; what varies is the film with
+ * k per nanometre, and a lobe (bandwidth 3.8 / sigma_lambda) or the sensitivities times the lamp,
+ * whichever is narrower. Three quarters of the bandwidth of film and lamp, at which 0.1 % of the
+ * amplitude is left, keep the integral within 0.2 %. */
+template<typename Tables>
+ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
+                                   const LocalDirection i,
+                                   const LocalDirection o,
+                                   const Tables &tables)
+{
+  using namespace physical_detail;
+  const Pair pair = {fabsf(i.nu + o.nu),
+                     fabsf(i.tau + o.tau),
+                     larger(0.5f * (i.n + o.n), 1e-4f),
+                     0.5f * (i.nu - o.nu),
+                     0.5f * (i.tau - o.tau)};
+
+  /* Most pairs of directions have nothing to do with each other. */
+  const bool cross = p.along.spacing_nm > 0.0f;
+  const float reach_0 = 5.5f * sqrtf(lobe_variance(p, last_nm, 0.0f));
+  if (pair.v > reach_0 && !cross) {
+    return {0.0f, 0.0f, 0.0f};
+  }
+  const bool swap = cross && pair.v > pair.u;
+  Integrator<Tables> sum = {p,
+                            pair,
+                            tables,
+                            swap ? p.along : p.across,
+                            swap ? p.across : p.along,
+                            swap ? pair.v : pair.u,
+                            swap ? pair.u : pair.v,
+                            Orders::All,
+                            false,
+                            false,
+                            {},
+                            {},
+                            {},
+                            {},
+                            0,
+                            {0.0f, 0.0f, 0.0f},
+                            {0.0f, 0.0f, 0.0f}};
+  const float q = sum.q_first;
+  const float spacing_nm = sum.first.spacing_nm;
+  sum.mirror = q < reach_0;
+  if (sum.mirror) {
+    sum.bound = mirror_bound(p);
+  }
+
+  /* Orders whose lobes reach into the visible range. */
+  const float reach = lobe_reach / 5.5f * reach_0;
+  const float reach_spread = lobe_reach * p.variation;
+  const int order_first = int(
+      ceilf(larger((q - reach) / (1.0f + reach_spread) * spacing_nm / last_nm, 1.0f)));
+  const float order_most = (q + reach) / larger(1.0f - reach_spread, 0.1f) * spacing_nm / first_nm;
+  if (!sum.mirror && order_most < float(order_first)) {
+    return {0.0f, 0.0f, 0.0f};
+  }
+
+  const float sine_squared = 1.0f - square(pair.cosine);
+  const float blue_ior = cauchy_index(p.oxide, 1.0f / blue_nm);
+  const float film_per_nm = 4.0f * pi * sqrtf(larger(square(blue_ior) - sine_squared, 0.0f)) *
+                            (p.oxide_nm + p.groove_nm) / square(blue_nm);
+  const float lamp_per_nm = illuminant_bandwidth_per_nm(p.illuminant);
+
+  /* The lobes' widths in wavelength, and in orders. */
+  const auto sigma_nm = [&](const float wavelength_nm) {
+    return wavelength_nm / larger(q, 1e-6f) * sqrtf(lobe_variance(p, wavelength_nm, q));
+  };
+  const auto step_nm = [&](const float lobe_per_nm) {
+    return two_pi / (larger(lobe_per_nm, 0.75f * lamp_per_nm) + 0.75f * film_per_nm);
+  };
+  const float blurred_orders = sqrtf(lobe_variance(p, first_nm, q)) * spacing_nm / last_nm;
+
+  /* One order after the other. */
+  if (!sum.mirror && order_most - float(order_first) < float(window_limit)) {
+    float nodes = 0.0f;
+    const int order_last = int(order_most);
+    for (int m = order_first; m <= order_last; m++) {
+      const float sigma = sigma_nm(clamped(q * spacing_nm / float(m), first_nm, last_nm));
+      nodes += 2.0f * lobe_reach * sigma / step_nm(gaussian_bandwidth / sigma) + 1.0f;
+    }
+    const float sigma_least = sigma_nm(first_nm);
+    const float grid_step = step_nm(blurred_orders > 0.7f ? 0.0f :
+                                                            gaussian_bandwidth / sigma_least);
+    if (nodes < (last_nm - first_nm) / grid_step) {
+      sum.orders = Orders::Single;
+      for (int m = order_first; m <= order_last; m++) {
+        const float centre_nm = q * spacing_nm / float(m);
+        const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
+        const float step = step_nm(gaussian_bandwidth / sigma);
+        const float half = step * floorf(lobe_reach * sigma / step);
+        float node = centre_nm - half;
+        if (node < first_nm) {
+          node += step * ceilf((first_nm - node) / step);
+        }
+        const float end = smaller(centre_nm + half + 0.5f * step, last_nm);
+        for (; node < end; node += step) {
+          sum.add(node, step, float(m));
+        }
+      }
+      sum.flush();
+      return sum.sum;
+    }
+  }
+
+  /* All orders at each node of a grid over the visible range. */
+  float lobe_per_nm = 0.0f;
+  const float slit_per_nm = two_pi * smaller(sum.first.duty, 1.0f - sum.first.duty) * q *
+                            spacing_nm / square(blue_nm);
+  if (!sum.mirror &&
+      two_pi * q * spacing_nm > (film_per_nm + 1.25f * lamp_per_nm) * square(last_nm)) {
+    sum.orders = Orders::Dense;
+    sum.dense_fringes = slit_per_nm < 0.4f;
+    lobe_per_nm = sum.dense_fringes ? slit_per_nm : 0.0f;
+  }
+  else if (blurred_orders < 0.7f) {
+    lobe_per_nm = gaussian_bandwidth / sigma_nm(first_nm);
+  }
+  else if (blurred_orders * sum.first.duty < 0.45f) {
+    lobe_per_nm = smaller(slit_per_nm, 0.4f);
+  }
+  const float order_1 = first_nm / spacing_nm;
+  if (q + lobe_reach * sqrtf(lobe_variance(p, first_nm, order_1)) < order_1) {
+    sum.orders = Orders::None;
+    lobe_per_nm = 0.0f;
+  }
+  const float step = step_nm(lobe_per_nm);
+  for (float node = first_nm + 0.5f * step; node < last_nm; node += step) {
+    sum.add(node, step, 0.0f);
+  }
+  sum.flush();
+  return {
+      sum.sum.r / sum.sum_weight.r, sum.sum.g / sum.sum_weight.g, sum.sum.b / sum.sum_weight.b};
+}
+
+}  // namespace icwafer
