@@ -26,6 +26,10 @@ SOCKET_OF_ATTRIBUTE = {
     "ic_oxide_nm": "Oxide Thickness",
     "ic_direction_rad": "Direction",
     "ic_diffraction": "Diffraction",
+    "ic_spacing_variation": "Spacing Variation",
+    "ic_cross_spacing_nm": "Cross Spacing",
+    "ic_cross_width_nm": "Cross Width",
+    "ic_groove_nm": "Groove Depth",
 }
 
 #: Blender's names for the fields of a View, in the order in which they depend on each other.
@@ -142,8 +146,8 @@ def set_node(
         if name in wafer.inputs:
             for link in wafer.inputs[name].links:
                 tree.links.remove(link)
-            colour = name == "Color"
-            wafer.inputs[name].default_value = (*value, 1.0) if colour else value
+            opaque = wafer.inputs[name].type == "RGBA"
+            wafer.inputs[name].default_value = (*value, 1.0) if opaque else value
         else:
             assign(wafer, name, value, f"node.{name}")
 

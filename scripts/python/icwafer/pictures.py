@@ -24,7 +24,7 @@ from icwafer.chips.spread import Normal
 
 Vector = tuple[float, float, float]
 #: Value of an input or property of the node: `use_thin_film` is a flag, `model` a name, `Color`
-#: three numbers.
+#: and the like three numbers.
 NodeValue = float | bool | str | tuple[float, ...] | list[float]
 
 FAR_MM = 100_000.0
@@ -133,7 +133,11 @@ LEFT_PAIR = (
 PROCESSOR = DieSpec(CLUSTERED_GROUPS, seed=17)
 GRATING = DieSpec(with_spacing(EVEN_GROUPS, Normal(1000, 4)), seed=17)
 
-MATERIAL: dict[str, NodeValue] = {"Lobe Width": 0.02, "Specular Roughness": 0.15}
+MATERIAL: dict[str, NodeValue] = {
+    "model": "CS348B",
+    "Lobe Width": 0.02,
+    "Specular Roughness": 0.15,
+}
 GRATING_ONLY = MATERIAL | {"use_thin_film": False, "use_wire_diffraction": False}
 
 PICTURES = {

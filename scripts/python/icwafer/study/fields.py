@@ -62,6 +62,12 @@ _NODE_NAMES = {
     "oxide": ("SIO2", "SI3N4", "CUSTOM"),
     "illuminant": ("EQUAL_ENERGY", "D65", "A", "F2", "F11", "WHITE_LED", "SODIUM"),
 }
+#: Inputs that are three numbers.
+_NODE_VECTORS = {
+    "Color": Rule("linear Rec.709", 0, 1),
+    "Metal n": Rule("index of the metal in red, green and blue light", 0, 10),
+    "Metal k": Rule("extinction of the metal in red, green and blue light", 0, 15),
+}
 _NODE_FLAGS = ("use_grating", "use_thin_film", "use_wire_diffraction")
 
 
@@ -400,9 +406,9 @@ def _node_value(name: str, value: Any) -> Any:
         return _choice(value, _NODE_NAMES[name])
     if name in _NODE_FLAGS:
         return _checked(bool, Rule(""), value)
-    if name == "Color":
-        return _checked(tuple[float, float, float], Rule("linear Rec.709", 0, 1), value)
-    known = ["Color", *node_inputs(), *_NODE_NAMES, *_NODE_FLAGS]
+    if name in _NODE_VECTORS:
+        return _checked(tuple[float, float, float], _NODE_VECTORS[name], value)
+    known = [*node_inputs(), *_NODE_VECTORS, *_NODE_NAMES, *_NODE_FLAGS]
     raise SettingError(f"is no input or property of the node: {nearest(name, known)}")
 
 
