@@ -163,7 +163,7 @@ class RefusalsTest(ReadingCase):
     def test_values_out_of_range(self) -> None:
         self.refused(6, "node.Wire Spacing is 1: allowed are 50 to 200000 (Distance from",
                      '[scene.node]\n"Wire Spacing" = 1\n')  # fmt: skip
-        self.refused(8, "render.samples is 0: allowed are 1 to 1e+06 (paths per pixel)",
+        self.refused(8, "render.samples is 0: allowed are 1 to 1000000 (paths per pixel)",
                      axis("a", "render.samples", [4, 0]))  # fmt: skip
         self.refused(5, "render.size is [64]: write 2 values in brackets", "render.size = [64]\n")
         self.refused(5, "camera.lens_mm is nan: write a number", "camera.lens_mm = nan\n")

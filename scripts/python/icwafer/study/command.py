@@ -89,7 +89,7 @@ def _count(text: str) -> int:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    packages.install("study")
+    packages.install("base")
     if arguments.list:
         _list_settings()
         return 0
