@@ -33,7 +33,7 @@ scene = bpy.context.scene
 bpy.ops.mesh.primitive_plane_add(size=4)
 material = bpy.data.materials.new("Wafer"); material.use_nodes = True
 tree = material.node_tree; tree.nodes.clear()
-node = tree.nodes.new("ShaderNodeBsdfICWafer")
+node = tree.nodes.new("ShaderNodeBsdfICWafer"); node.model = "CS348B"
 output = tree.nodes.new("ShaderNodeOutputMaterial")
 tree.links.new(node.outputs[0], output.inputs["Surface"])
 value = tree.nodes.new("ShaderNodeValue"); value.outputs[0].default_value = 700
@@ -50,8 +50,9 @@ for node in (files, composite):
     scene.node_tree.links.new(layers.outputs[0], node.inputs[0])
 text = bpy.data.texts.new("evil.py"); text.use_module = True
 text.write("open('FOLDER/evil', 'w').write('x')")
-driver = bpy.data.lights[0].driver_add("energy").driver
-driver.expression = "500 + 0 * len(str(__import__('os').mkdir('FOLDER/driven')))"
+scene["driven"] = 0.0
+driver = scene.driver_add('["driven"]').driver
+driver.expression = "len(str(__import__('os').mkdir('FOLDER/driven')))"
 bpy.ops.wm.save_as_mainfile(filepath="FOLDER/scene.blend")
 """
 
@@ -176,17 +177,12 @@ class RenderTest(StudyCase):
             self.assertEqual(said.count("\n"), 1, said)
 
     def test_the_studies_of_the_project_are_possible(self) -> None:
-        """But for those of a model that this Blender's node has not."""
         studies = sorted((host.REPOSITORY / "scripts" / "studies").glob("*.toml"))
         self.assertGreater(len(studies), 5)
         for study in studies:
             with self.subTest(study.name):
-                process = self.start(study, "out", "--dry-run")
-                out, err = process.communicate(timeout=60)
-                if process.returncode:
-                    self.assertRegex(err, r"node\.\w+ is not possible here: .*not found")
-                else:
-                    self.assertRegex(out, r"images are to be rendered: about \d+")
+                said = self.render(study, "out", "--dry-run")
+                self.assertRegex(said, r"images are to be rendered: about \d+")
 
 
 class BlendFileTest(StudyCase):
@@ -197,11 +193,14 @@ class BlendFileTest(StudyCase):
             host.built_blender(), "-b", "--factory-startup", "--python-exit-code", "1",
             "--python-expr", script, folder=self.folder, seconds=60,
         )  # fmt: skip
-        for trace in ("evil", "driven", "compositor"):
-            path = self.folder / trace
-            if path.is_dir():
-                path.rename(self.folder / f"was-{trace}")
-            path.unlink(missing_ok=True)
+        # Where scripts may run, these do: else the test below would show nothing.
+        host.run(
+            host.built_blender(), "-b", "--factory-startup", "--enable-autoexec",
+            self.folder / "scene.blend", folder=self.folder, seconds=60,
+        )  # fmt: skip
+        for trace in ("evil", "driven"):
+            self.assertTrue((self.folder / trace).exists(), trace)
+            (self.folder / trace).rename(self.folder / f"was-{trace}")
 
     def head(self, text: str) -> str:
         return HEAD.replace('picture = "full"', f'blend = "scene.blend"\n{text}')

@@ -69,7 +69,7 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         "--isolate", action="store_true", help="start Blender anew for every image"
     )
     command.add_argument(
-        "--timeout", type=float, default=3600.0, metavar="S", help="for one image (%(default)g s)"
+        "--timeout", type=_seconds, default=3600.0, metavar="S", help="for one image (%(default)g s)"
     )
     command.add_argument("--engine", choices=("local", "slurm"), default="local")
     command.add_argument(
@@ -86,6 +86,16 @@ def _count(text: str) -> int:
     if not text.isdigit() or not 1 <= int(text) <= 1024:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number from 1 to 1024")
     return int(text)
+
+
+def _seconds(text: str) -> float:
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = 0.0
+    if not 0 < seconds < 1e9:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds above 0")
+    return seconds
 
 
 def _run(arguments: argparse.Namespace) -> int:

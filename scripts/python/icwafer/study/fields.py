@@ -111,7 +111,7 @@ def picture_settings(name: str) -> Scene:
     """The settings of one of the project's pictures; not to be changed."""
     scene = flatten(PICTURES[name])
     del scene["caption"]
-    return scene
+    return _checked_all(scene)
 
 
 @functools.cache
@@ -122,7 +122,12 @@ def layout_settings(layout: str) -> Scene:
     """
     die = PRESETS[layout].dies[0] if layout in PRESETS else _product(layout)
     blocks = {BLOCKS: layout} if die.blocks is not None else {}
-    return flatten(dataclasses.replace(die, blocks=None), "die.") | blocks
+    return _checked_all(flatten(dataclasses.replace(die, blocks=None), "die.")) | blocks
+
+
+def _checked_all(scene: Scene) -> Scene:
+    """The same settings as a study that sets each of them stores them: 1080 as 1080.0."""
+    return {name: check(name, value) for name, value in scene.items()}
 
 
 @functools.cache
@@ -244,7 +249,7 @@ def _parts(thing: Any) -> Iterable[tuple[str, Any]]:
 
 def _as_json(value: Any) -> Any:
     if isinstance(value, Spread):
-        return value.mean if value == Normal(value.mean) else _spread_json(value)
+        return float(value.mean) if value == Normal(value.mean) else _spread_json(value)
     if isinstance(value, enum.Enum):
         return value.name.lower()
     return list(value) if isinstance(value, tuple) else value
@@ -253,7 +258,10 @@ def _as_json(value: Any) -> Any:
 def _spread_json(spread: Spread) -> Scene:
     names = next(names for names, kind in _SPREADS.items() if type(spread) is kind)
     values = (getattr(spread, f.name) for f in dataclasses.fields(spread))
-    return {name: _as_json(value) for name, value in zip(names, values)}
+    return {
+        name: [float(v) for v in value] if isinstance(value, tuple) else float(value)
+        for name, value in zip(names, values)
+    }
 
 
 def _nested(scene: Mapping[str, Any]) -> dict[str, Any]:

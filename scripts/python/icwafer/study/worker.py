@@ -92,7 +92,8 @@ def _render(request: Mapping[str, Any]) -> dict[str, Any]:
 def _render_to(folder: Path, settings: fields.Scene, attributes: Mapping[str, str]) -> dict:
     begin = time.monotonic()
     scene = _build(settings)
-    size = scene.render.resolution_x, scene.render.resolution_y
+    share = scene.render.resolution_percentage / 100
+    size = int(scene.render.resolution_x * share), int(scene.render.resolution_y * share)
     blender_image.expect_space(folder, size)
     bpy.ops.render.render()
     for name, added in (("image.exr", attributes), ("image.png", {})):
