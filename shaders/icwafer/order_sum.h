@@ -20,6 +20,8 @@ namespace icwafer {
  * that there is no such lattice. */
 struct Lattice {
   float spacing_nm, duty;
+  /* Standard deviation of a lobe from coherence along the axis, per nanometre of wavelength. */
+  float coherence_per_nm;
 };
 
 /* The part of the area that one or the other lattice covers. */

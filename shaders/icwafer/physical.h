@@ -22,6 +22,7 @@
  * and a lobe's width comes from the coherence width W, the roughness and the spread of the
  * spacing: sigma_m^2 = (0.376 lambda / W)^2 + sigma_rough^2 + (variation m lambda / d)^2 (0.376
  * turns the full width at half maximum 0.886 lambda / W of an aperture W wide into a Gaussian's).
+ * Along the wires W is the length over which they run on undisturbed.
  *
  * Energy. At one cosine, Parseval's theorem gives sum eta = F |r_ridge|^2 + (1 - F) |r_groove|^2
  * <= 1. As each order has its own cosine, the sum may pass 1. The orders other than (0, 0) never
@@ -48,9 +49,8 @@ struct PhysicalParams {
   /* Wires, and those that cross them. */
   Lattice across, along;
   float oxide_nm, groove_nm;
-  /* Standard deviation of a lobe in u from coherence, per nanometre of wavelength; from
-   * roughness; relative spread of the spacing. */
-  float coherence_per_nm, roughness, variation;
+  /* Standard deviation of a lobe from roughness; relative spread of the spacing. */
+  float roughness, variation;
   Cauchy oxide;
   /* Index of metal_custom in red, green and blue light. */
   float custom_n[3], custom_k[3];
@@ -71,14 +71,18 @@ ICW_DEVICE float physical_roughness_sigma(const float roughness)
   return 1.4142136f * square(clamped(roughness, 0.0f, 0.6f));
 }
 
-/* A lattice of wires; none where the spacing is not positive. */
-ICW_DEVICE Lattice physical_lattice(const float spacing_nm, const float width_nm)
+/* A lattice of wires; none where the spacing is not positive. `coherence_width_um` is along its
+ * own axis. */
+ICW_DEVICE Lattice physical_lattice(const float spacing_nm,
+                                    const float width_nm,
+                                    const float coherence_width_um)
 {
-  if (!(spacing_nm > 0.0f)) {
-    return {0.0f, 0.0f};
+  const float coherence_per_nm = physical_coherence_per_nm(coherence_width_um);
+  if (!(spacing_nm > 0.0f) || !(width_nm > 0.0f)) {
+    return {0.0f, 0.0f, coherence_per_nm};
   }
   const float spacing = clamped(spacing_nm, 50.0f, 1e6f);
-  return {spacing, clamped(width_nm / spacing, 0.0f, 1.0f)};
+  return {spacing, clamped(width_nm / spacing, 0.0f, 1.0f), coherence_per_nm};
 }
 
 /* A component of the index of metal_custom, kept to what can be divided by. */
@@ -93,7 +97,6 @@ ICW_DEVICE PhysicalParams physical_params(const Lattice across,
                                           const Lattice along,
                                           const float oxide_nm,
                                           const float groove_nm,
-                                          const float coherence_width_um,
                                           const float roughness,
                                           const float variation,
                                           const Oxide oxide,
@@ -102,12 +105,14 @@ ICW_DEVICE PhysicalParams physical_params(const Lattice across,
                                           const Illuminant illuminant)
 {
   PhysicalParams p = {};
-  /* Wires of width 0 are no wires: a mirror under oxide. */
-  p.across = across.spacing_nm > 0.0f ? across : Lattice{1000.0f, 0.0f};
-  p.along = along.duty > 0.0f ? along : Lattice{0.0f, 0.0f};
+  p.across = across;
+  if (!(across.spacing_nm > 0.0f)) {
+    /* Wires of no width: a mirror under oxide. */
+    p.across.spacing_nm = 1000.0f;
+  }
+  p.along = along;
   p.oxide_nm = clamped(oxide_nm, 0.0f, 1e4f);
   p.groove_nm = clamped(groove_nm, 0.0f, 1e4f);
-  p.coherence_per_nm = physical_coherence_per_nm(coherence_width_um);
   p.roughness = physical_roughness_sigma(roughness);
   p.variation = clamped(variation, 0.0f, 0.3f);
   p.oxide = oxide_series(oxide, clamped(custom_oxide_ior, 1.0f, 5.0f));
@@ -143,24 +148,31 @@ constexpr float blue_nm = 420.0f;
  * off. */
 constexpr float gaussian_bandwidth = 3.8f;
 constexpr float lobe_reach = 4.5f;
+constexpr float mirror_reach = 5.5f;
+/* Steps above this are rounded down to whole nanometres. */
+constexpr float whole_step_nm = 2.0f;
 /* More orders than this are not summed one by one. */
 constexpr int window_limit = 24;
 
-/* Variance of the lobe around order * lambda / d in u. `shift` is order * lambda / d. */
+/* Variance of the lobe around order * lambda / d along the lattice's axis. `shift` is
+ * order * lambda / d. */
 template<typename Real>
-ICW_DEVICE Real lobe_variance(const PhysicalParams &p, const Real wavelength_nm, const Real shift)
+ICW_DEVICE Real lobe_variance(const PhysicalParams &p,
+                              const Lattice &lattice,
+                              const Real wavelength_nm,
+                              const Real shift)
 {
-  const Real coherence = p.coherence_per_nm * wavelength_nm;
+  const Real coherence = lattice.coherence_per_nm * wavelength_nm;
   const Real spread = p.variation * shift;
   return coherence * coherence + square(p.roughness) + spread * spread;
 }
 
 }  // namespace physical_detail
 
-/* Variance of the mirror lobe in u at a mean wavelength. */
-ICW_DEVICE float physical_lobe_variance(const PhysicalParams &p)
+/* Variance of the mirror lobe along an axis at a mean wavelength. */
+ICW_DEVICE float physical_lobe_variance(const PhysicalParams &p, const Lattice &axis)
 {
-  return physical_detail::lobe_variance(p, 550.0f, 0.0f);
+  return physical_detail::lobe_variance(p, axis, 550.0f, 0.0f);
 }
 
 namespace physical_detail {
@@ -199,21 +211,21 @@ struct Pair {
 };
 
 /* Orders +-m of one axis in groups, wider and wider (1, 2, 3-4, 5-7, 8-11, ...): the middle of
- * each, and U^2 for one side of it. */
+ * each and how far it reaches on either side, and U^2 for one side of the axis. */
 constexpr int group_limit = 9;
 
 struct OrderGroups {
   int count;
-  float order[group_limit], weight[group_limit];
-  /* Twice U^2 of all orders beyond. */
-  float rest;
+  float order[group_limit], reach[group_limit], weight[group_limit];
+  /* Twice U^2 of all orders beyond, and of all orders. */
+  float rest, total;
 };
 
 ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
 {
   OrderGroups groups;
   groups.count = 0;
-  groups.rest = 0.0f;
+  groups.rest = groups.total = 0.0f;
   if (!(lattice.spacing_nm > 0.0f)) {
     return groups;
   }
@@ -232,11 +244,13 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
       cosine = next;
     }
     groups.order[groups.count] = 0.5f * float(first + last);
+    groups.reach[groups.count] = 0.5f * float(last - first);
     groups.weight[groups.count] = square(open) * larger(weight, 0.0f);
     left -= 2.0f * weight;
     first = last + 1;
   }
   groups.rest = square(open) * larger(left, 0.0f);
+  groups.total = square(open) * lattice.duty * (1.0f - lattice.duty);
   return groups;
 }
 
@@ -256,6 +270,29 @@ ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p)
                   0.0f};
 }
 
+/* The most that the contrast can be within a group of orders, and its mean over lobes, from what
+ * it is in their middle.
+ *
+ * With thickness h of the film, 4 pi h / lambda bounds how much its phase changes an amplitude per
+ * unit of the cosine (Airy's resonances are narrower at grazing angles, but the phase is slower
+ * there by the same factor); 8 more was found to cover Fresnel's amplitudes. Over a lobe in which
+ * the phase between the two levels has the standard deviation s, the mean of 2 - 2 cos(phase) is
+ * nearer to 2 by exp(-s^2 / 2).
+ *   group_range, lobe_range   how far the cosine reaches from the middle; the cosine of the film
+ *                             is the mean of two, one of which is the same for all orders */
+ICW_DEVICE Lanes largest_contrast(const PhysicalParams &p,
+                                  const Lanes contrast,
+                                  const Lanes group_range,
+                                  const Lanes lobe_range,
+                                  const Lanes per_nm)
+{
+  const Lanes slope = (two_pi * (p.oxide_nm + p.groove_nm)) * per_nm + 4.0f;
+  const Lanes amplitude = lanes_min(lanes_sqrt(contrast) + group_range * slope, lanes(2.0f));
+  const Lanes group = amplitude * amplitude;
+  const Lanes s = (two_pi * (0.5f * p.oxide_nm + p.groove_nm)) * per_nm * lobe_range;
+  return group + lanes_max(2.0f - group, lanes(0.0f)) * lanes_min(0.5f * s * s, lanes(1.0f));
+}
+
 /* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
  * most wavelengths need only the first few for the bound to be out of reach. */
 ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
@@ -267,16 +304,13 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
                                       const Lanes per_nm)
 {
   const float cosine = sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f));
+  const float sigma_0 = sqrtf(
+      larger(physical_lobe_variance(p, p.across), physical_lobe_variance(p, p.along)));
   Lanes others = lanes(4.0f * bound.diagonal);
   /* Groups of each axis that may be above the horizon. */
   int used[2] = {bound.across.count, bound.along.count};
-  float rest = bound.across.rest + bound.along.rest;
-  for (int axis = 0; axis < 2; axis++) {
-    const OrderGroups &groups = axis == 0 ? bound.across : bound.along;
-    for (int group = 0; group < groups.count; group++) {
-      rest += 2.0f * groups.weight[group];
-    }
-  }
+  /* Twice U^2 of the groups that are not in the sum yet. */
+  float rest = bound.across.total + bound.along.total;
 
   for (int group = 0; group < group_limit; group++) {
     for (int axis = 0; axis < 2; axis++) {
@@ -287,18 +321,39 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
       const float spacing_nm = axis == 0 ? p.across.spacing_nm : p.along.spacing_nm;
       const float mid = axis == 0 ? pair.mid_nu : pair.mid_tau;
       const float mid_other = axis == 0 ? pair.mid_tau : pair.mid_nu;
-      const Lanes shift = groups.order[group] / (spacing_nm * per_nm);
+      const Lanes per_order = 1.0f / (spacing_nm * per_nm);
       rest -= 2.0f * groups.weight[group];
       bool above_horizon = false;
       for (int side = -1; side <= 1; side += 2) {
-        const Lanes sine = mid + float(side) * shift;
-        const Lanes cos_squared = 1.0f - square(mid_other) - sine * sine;
-        if (lanes_largest(cos_squared) > 0.0f) {
+        /* How far from the normal an order is, and its cosine, 0 below the horizon. */
+        const auto sine_of = [&](const float order) {
+          const Lanes sine = mid + float(side) * order * per_order;
+          return lanes_sqrt(square(mid_other) + sine * sine);
+        };
+        const auto cosine_of = [](const Lanes sine) {
+          return lanes_sqrt(lanes_max(1.0f - sine * sine, lanes(0.0f)));
+        };
+        const float order = groups.order[group], reach = groups.reach[group];
+        const Lanes middle = sine_of(order);
+        const Lanes first = reach > 0.0f ? sine_of(order - reach) : middle;
+        const Lanes last = reach > 0.0f ? sine_of(order + reach) : middle;
+        const Lanes sigma = sigma_0 + p.variation * order * per_order;
+        /* The part of a lobe that may be above the horizon, at least. */
+        const Lanes above = lanes_min(
+            lanes_max(1.0f + 0.5f * (1.0f - lanes_min(first, last)) / sigma, lanes(0.0f)),
+            lanes(1.0f));
+        if (lanes_largest(above) > 0.0f) {
           above_horizon = true;
-          const Lanes c = 0.5f * (cosine + lanes_sqrt(lanes_max(cos_squared, lanes(0.0f))));
-          const Lanes power = groups.weight[group] *
-                              levels(p, c, film_ior, metal, per_nm).contrast;
-          others += cos_squared > 0.0f ? power : lanes(0.0f);
+          const Lanes cos_middle = cosine_of(middle);
+          const Lanes cos_first = cosine_of(first), cos_last = cosine_of(last);
+          const Lanes group_range = lanes_max(lanes_max(cos_first, cos_last) - cos_middle,
+                                              cos_middle - lanes_min(cos_first, cos_last));
+          const Lanes lobe_range = 0.5f * (cosine_of(lanes_max(middle - sigma, lanes(0.0f))) -
+                                           cosine_of(middle + sigma));
+          const Lanes contrast =
+              levels(p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm).contrast;
+          others += groups.weight[group] * above *
+                    largest_contrast(p, contrast, group_range, lobe_range, per_nm);
         }
       }
       if (!above_horizon) {
@@ -317,7 +372,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
   return lanes_max(lanes_min(eta, 1.0f - 4.0f * rest - others), lanes(0.0f));
 }
 
-/* How the orders of the axis with the longer component of q are summed. */
+/* How the orders of the axis that tells the wavelength best are summed. */
 enum class Orders {
   /* Out of reach. */
   None,
@@ -335,16 +390,19 @@ struct Integrator {
   const PhysicalParams &p;
   const Pair &pair;
   const Tables &tables;
-  /* The axis along which q is longer comes first. */
+  /* The axis that tells the wavelength best comes first. */
   Lattice first, second;
   float q_first, q_second;
   Orders orders;
-  bool mirror, dense_fringes;
-  MirrorBound bound;
+  bool mirror = false, dense_fringes = false;
+  MirrorBound bound = {};
 
-  float wavelength_nm[lane_count], step_nm[lane_count], order[lane_count];
-  int count;
-  Rgb sum, sum_weight;
+  /* Whether all nodes are whole nanometres, where the tables need no interpolation. */
+  bool whole = false;
+  float wavelength_nm[lane_count] = {}, step_nm[lane_count] = {}, order[lane_count] = {};
+  int count = 0;
+  Lanes red = lanes(0.0f), green = lanes(0.0f), blue = lanes(0.0f);
+  Lanes weight_red = lanes(0.0f), weight_green = lanes(0.0f), weight_blue = lanes(0.0f);
 
   ICW_DEVICE_METHOD void add(const float node_nm, const float node_step_nm, const float node_order)
   {
@@ -356,7 +414,8 @@ struct Integrator {
     }
   }
 
-  /* Adds up the nodes gathered so far. */
+  /* Adds up the nodes gathered so far. Nodes are inside the visible range, so there is a next
+   * entry in the tables. */
   ICW_DEVICE_LARGE_METHOD void flush()
   {
     if (count == 0) {
@@ -369,36 +428,82 @@ struct Integrator {
     }
     count = 0;
 
-    /* Nodes are inside the visible range, so there is a next entry in the tables. */
     const Lanes wavelength = load_lanes(wavelength_nm);
     int cell[lane_count];
-    float part[lane_count], n[lane_count], k[lane_count], f[lane_count];
-    split_lanes(wavelength - first_nm, cell, part);
-    for (int lane = 0; lane < lane_count; lane++) {
-      const ComplexIndex a = metal_index(cell[lane]), b = metal_index(cell[lane] + 1);
-      n[lane] = a.n + part[lane] * (b.n - a.n);
-      k[lane] = a.k + part[lane] * (b.k - a.k);
+    float fraction[lane_count];
+    split_lanes(wavelength - (whole ? first_nm - 0.5f : first_nm), cell, fraction);
+    Complex<Lanes> metal;
+    Lanes s_red, s_green, s_blue;
+    look_up(cell, 0, metal, s_red, s_green, s_blue);
+    if (!whole) {
+      const Lanes part = load_lanes(fraction);
+      Complex<Lanes> next_metal;
+      Lanes next_red, next_green, next_blue;
+      look_up(cell, 1, next_metal, next_red, next_green, next_blue);
+      metal = metal + part * (next_metal - metal);
+      s_red += part * (next_red - s_red);
+      s_green += part * (next_green - s_green);
+      s_blue += part * (next_blue - s_blue);
     }
-    store_lanes(reflected(wavelength, load_lanes(order), {load_lanes(n), load_lanes(k)}), f);
-
-    Rgb total = sum, total_weight = sum_weight;
-    for (int lane = 0; lane < lane_count; lane++) {
-      const Rgb a = tables.sensitivity(p.illuminant, cell[lane]);
-      const Rgb b = tables.sensitivity(p.illuminant, cell[lane] + 1);
-      const float weight_b = part[lane] * step_nm[lane];
-      const Rgb s = (step_nm[lane] - weight_b) * a + weight_b * b;
-      total = total + f[lane] * s;
-      total_weight = total_weight + s;
-    }
-    sum = total;
-    sum_weight = total_weight;
+    const Lanes f = reflected(wavelength, load_lanes(order), metal);
+    const Lanes step = load_lanes(step_nm);
+    s_red *= step;
+    s_green *= step;
+    s_blue *= step;
+    red += s_red * f;
+    green += s_green * f;
+    blue += s_blue * f;
+    weight_red += s_red;
+    weight_green += s_green;
+    weight_blue += s_blue;
   }
 
-  /* Index of the metal at number `cell` of the visible range. */
-  ICW_DEVICE_METHOD ComplexIndex metal_index(const int cell) const
+  /* Entries number cell + offset of the visible range. */
+  ICW_DEVICE_METHOD void look_up(const int *cell,
+                                 const int offset,
+                                 Complex<Lanes> &metal,
+                                 Lanes &s_red,
+                                 Lanes &s_green,
+                                 Lanes &s_blue) const
   {
-    return p.metal == metal_custom ? custom_index(p, first_nm + float(cell)) :
-                                     tables.metal(p.metal, cell);
+    float r[lane_count], g[lane_count], b[lane_count], n[lane_count], k[lane_count];
+    for (int lane = 0; lane < lane_count; lane++) {
+      const Rgb s = tables.sensitivity(p.illuminant, cell[lane] + offset);
+      r[lane] = s.r;
+      g[lane] = s.g;
+      b[lane] = s.b;
+    }
+    if (p.metal == metal_custom) {
+      for (int lane = 0; lane < lane_count; lane++) {
+        const ComplexIndex index = custom_index(p, first_nm + float(cell[lane] + offset));
+        n[lane] = index.n;
+        k[lane] = index.k;
+      }
+    }
+    else {
+      for (int lane = 0; lane < lane_count; lane++) {
+        const ComplexIndex index = tables.metal(p.metal, cell[lane] + offset);
+        n[lane] = index.n;
+        k[lane] = index.k;
+      }
+    }
+    metal = {load_lanes(n), load_lanes(k)};
+    s_red = load_lanes(r);
+    s_green = load_lanes(g);
+    s_blue = load_lanes(b);
+  }
+
+  ICW_DEVICE_METHOD Rgb sum() const
+  {
+    return {lanes_sum(red), lanes_sum(green), lanes_sum(blue)};
+  }
+
+  /* Divided by the weights, so that a flat spectrum is exactly white at any step. */
+  ICW_DEVICE_METHOD Rgb mean() const
+  {
+    return {lanes_sum(red) / lanes_sum(weight_red),
+            lanes_sum(green) / lanes_sum(weight_green),
+            lanes_sum(blue) / lanes_sum(weight_blue)};
   }
 
   /* f at the wavelengths of the nodes. */
@@ -409,12 +514,13 @@ struct Integrator {
     const Lanes per_nm = 1.0f / wavelength;
     const Lanes film_ior = cauchy_index(p.oxide, per_nm);
     const FilmPair<Lanes> r = levels(p, lanes(pair.cosine), film_ior, metal, per_nm);
-    const Lanes sigma = lanes_sqrt(lobe_variance(p, wavelength, lanes(0.0f)));
-    const Lanes zero_second = lanes_gaussian(lanes(q_second), sigma);
+    const Lanes sigma_first = lanes_sqrt(lobe_variance(p, first, wavelength, lanes(0.0f)));
+    const Lanes sigma_second = lanes_sqrt(lobe_variance(p, second, wavelength, lanes(0.0f)));
+    const Lanes zero_second = lanes_gaussian(lanes(q_second), sigma_second);
     const float open_first = first.spacing_nm > 0.0f ? 1.0f - first.duty : 1.0f;
     const float open_second = second.spacing_nm > 0.0f ? 1.0f - second.duty : 1.0f;
-    const Lanes others_second = all_orders(second, q_second, sigma, per_nm);
-    const Lanes others_first = first_orders(wavelength, node_order, sigma, per_nm);
+    const Lanes others_second = all_orders(second, q_second, sigma_second, per_nm);
+    const Lanes others_first = first_orders(wavelength, node_order, sigma_first, per_nm);
 
     Lanes f = r.contrast * others_first * (square(open_second) * zero_second + others_second);
     if (mirror) {
@@ -425,7 +531,7 @@ struct Integrator {
       if (lanes_largest(eta) > 1.0f - 4.0f * ridge_part * groove_part) {
         eta = bounded_mirror(p, pair, bound, eta, film_ior, metal, per_nm);
       }
-      f += lanes_gaussian(lanes(q_first), sigma) *
+      f += lanes_gaussian(lanes(q_first), sigma_first) *
            (eta * zero_second + square(open_first) * r.contrast * others_second);
     }
     return f;
@@ -462,8 +568,9 @@ struct Integrator {
     }
     const Lanes shift = node_order * wavelength / first.spacing_nm;
     const Lanes amplitude = order_amplitude(node_order, lanes(first.duty));
-    const Lanes sigma_m = p.variation > 0.0f ? lanes_sqrt(lobe_variance(p, wavelength, shift)) :
-                                               sigma;
+    const Lanes sigma_m = p.variation > 0.0f ?
+                              lanes_sqrt(lobe_variance(p, first, wavelength, shift)) :
+                              sigma;
     return amplitude * amplitude * lanes_gaussian(q_first - shift, sigma_m);
   }
 };
@@ -492,42 +599,36 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
 
   /* Most pairs of directions have nothing to do with each other. */
   const bool cross = p.along.spacing_nm > 0.0f;
-  const float reach_0 = 5.5f * sqrtf(lobe_variance(p, last_nm, 0.0f));
-  if (pair.v > reach_0 && !cross) {
+  const float sigma_u = sqrtf(lobe_variance(p, p.across, last_nm, 0.0f));
+  const float sigma_v = sqrtf(lobe_variance(p, p.along, last_nm, 0.0f));
+  const bool near_u = pair.u < mirror_reach * sigma_u, near_v = pair.v < mirror_reach * sigma_v;
+  if (!near_v && !cross) {
     return {0.0f, 0.0f, 0.0f};
   }
-  const bool swap = cross && pair.v > pair.u;
-  Integrator<Tables> sum = {p,
-                            pair,
-                            tables,
-                            swap ? p.along : p.across,
-                            swap ? p.across : p.along,
-                            swap ? pair.v : pair.u,
-                            swap ? pair.u : pair.v,
-                            Orders::All,
-                            false,
-                            false,
-                            {},
-                            {},
-                            {},
-                            {},
-                            0,
-                            {0.0f, 0.0f, 0.0f},
-                            {0.0f, 0.0f, 0.0f}};
-  const float q = sum.q_first;
-  const float spacing_nm = sum.first.spacing_nm;
-  sum.mirror = q < reach_0;
-  if (sum.mirror) {
-    sum.bound = mirror_bound(p);
+  /* An order's light at q has a spread of wavelengths in proportion to sigma / q. */
+  const bool swap = cross && !near_v && (near_u || pair.v * sigma_u > pair.u * sigma_v);
+  Integrator<Tables> nodes = {p,
+                              pair,
+                              tables,
+                              swap ? p.along : p.across,
+                              swap ? p.across : p.along,
+                              swap ? pair.v : pair.u,
+                              swap ? pair.u : pair.v,
+                              Orders::All};
+  const float q = nodes.q_first;
+  const float spacing_nm = nodes.first.spacing_nm;
+  nodes.mirror = near_u && near_v;
+  if (nodes.mirror) {
+    nodes.bound = mirror_bound(p);
   }
 
   /* Orders whose lobes reach into the visible range. */
-  const float reach = lobe_reach / 5.5f * reach_0;
+  const float reach = lobe_reach * (swap ? sigma_v : sigma_u);
   const float reach_spread = lobe_reach * p.variation;
   const int order_first = int(
       ceilf(larger((q - reach) / (1.0f + reach_spread) * spacing_nm / last_nm, 1.0f)));
   const float order_most = (q + reach) / larger(1.0f - reach_spread, 0.1f) * spacing_nm / first_nm;
-  if (!sum.mirror && order_most < float(order_first)) {
+  if (!nodes.mirror && order_most < float(order_first)) {
     return {0.0f, 0.0f, 0.0f};
   }
 
@@ -539,73 +640,81 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
 
   /* The lobes' widths in wavelength, and in orders. */
   const auto sigma_nm = [&](const float wavelength_nm) {
-    return wavelength_nm / larger(q, 1e-6f) * sqrtf(lobe_variance(p, wavelength_nm, q));
+    return wavelength_nm / larger(q, 1e-6f) *
+           sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q));
   };
   const auto step_nm = [&](const float lobe_per_nm) {
     return two_pi / (larger(lobe_per_nm, 0.75f * lamp_per_nm) + 0.75f * film_per_nm);
   };
-  const float blurred_orders = sqrtf(lobe_variance(p, first_nm, q)) * spacing_nm / last_nm;
+  const float blurred_orders = sqrtf(lobe_variance(p, nodes.first, first_nm, q)) * spacing_nm /
+                               last_nm;
 
   /* One order after the other. */
-  if (!sum.mirror && order_most - float(order_first) < float(window_limit)) {
-    float nodes = 0.0f;
+  if (!nodes.mirror && order_most - float(order_first) < float(window_limit)) {
+    float node_count = 0.0f;
     const int order_last = int(order_most);
     for (int m = order_first; m <= order_last; m++) {
       const float sigma = sigma_nm(clamped(q * spacing_nm / float(m), first_nm, last_nm));
-      nodes += 2.0f * lobe_reach * sigma / step_nm(gaussian_bandwidth / sigma) + 1.0f;
+      node_count += 2.0f * lobe_reach * sigma / step_nm(gaussian_bandwidth / sigma) + 1.0f;
     }
     const float sigma_least = sigma_nm(first_nm);
     const float grid_step = step_nm(blurred_orders > 0.7f ? 0.0f :
                                                             gaussian_bandwidth / sigma_least);
-    if (nodes < (last_nm - first_nm) / grid_step) {
-      sum.orders = Orders::Single;
+    if (node_count < (last_nm - first_nm) / grid_step) {
+      nodes.orders = Orders::Single;
+      const float sigma_last = sigma_nm(
+          clamped(q * spacing_nm / float(order_last), first_nm, last_nm));
+      nodes.whole = step_nm(gaussian_bandwidth / sigma_last) > whole_step_nm;
       for (int m = order_first; m <= order_last; m++) {
         const float centre_nm = q * spacing_nm / float(m);
         const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
-        const float step = step_nm(gaussian_bandwidth / sigma);
+        const float exact_step = step_nm(gaussian_bandwidth / sigma);
+        const float step = nodes.whole ? floorf(exact_step) : exact_step;
         const float half = step * floorf(lobe_reach * sigma / step);
-        float node = centre_nm - half;
+        float node = nodes.whole ? floorf(centre_nm - half + 0.5f) : centre_nm - half;
         if (node < first_nm) {
           node += step * ceilf((first_nm - node) / step);
         }
         const float end = smaller(centre_nm + half + 0.5f * step, last_nm);
         for (; node < end; node += step) {
-          sum.add(node, step, float(m));
+          nodes.add(node, step, float(m));
         }
       }
-      sum.flush();
-      return sum.sum;
+      nodes.flush();
+      return nodes.sum();
     }
   }
 
   /* All orders at each node of a grid over the visible range. */
   float lobe_per_nm = 0.0f;
-  const float slit_per_nm = two_pi * smaller(sum.first.duty, 1.0f - sum.first.duty) * q *
+  const float slit_per_nm = two_pi * smaller(nodes.first.duty, 1.0f - nodes.first.duty) * q *
                             spacing_nm / square(blue_nm);
-  if (!sum.mirror &&
+  if (!nodes.mirror &&
       two_pi * q * spacing_nm > (film_per_nm + 1.25f * lamp_per_nm) * square(last_nm)) {
-    sum.orders = Orders::Dense;
-    sum.dense_fringes = slit_per_nm < 0.4f;
-    lobe_per_nm = sum.dense_fringes ? slit_per_nm : 0.0f;
+    nodes.orders = Orders::Dense;
+    nodes.dense_fringes = slit_per_nm < 0.4f;
+    lobe_per_nm = nodes.dense_fringes ? slit_per_nm : 0.0f;
   }
   else if (blurred_orders < 0.7f) {
     lobe_per_nm = gaussian_bandwidth / sigma_nm(first_nm);
   }
-  else if (blurred_orders * sum.first.duty < 0.45f) {
+  else if (blurred_orders * nodes.first.duty < 0.45f) {
     lobe_per_nm = smaller(slit_per_nm, 0.4f);
   }
   const float order_1 = first_nm / spacing_nm;
-  if (q + lobe_reach * sqrtf(lobe_variance(p, first_nm, order_1)) < order_1) {
-    sum.orders = Orders::None;
+  if (q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) < order_1) {
+    nodes.orders = Orders::None;
     lobe_per_nm = 0.0f;
   }
-  const float step = step_nm(lobe_per_nm);
-  for (float node = first_nm + 0.5f * step; node < last_nm; node += step) {
-    sum.add(node, step, 0.0f);
+  const float exact_step = step_nm(lobe_per_nm);
+  nodes.whole = exact_step > whole_step_nm;
+  const float step = nodes.whole ? floorf(exact_step) : exact_step;
+  const float begin = first_nm + (nodes.whole ? floorf(0.5f * step) : 0.5f * step);
+  for (float node = begin; node < last_nm; node += step) {
+    nodes.add(node, step, 0.0f);
   }
-  sum.flush();
-  return {
-      sum.sum.r / sum.sum_weight.r, sum.sum.g / sum.sum_weight.g, sum.sum.b / sum.sum_weight.b};
+  nodes.flush();
+  return nodes.mean();
 }
 
 }  // namespace icwafer

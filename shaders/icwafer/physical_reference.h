@@ -138,13 +138,12 @@ inline double physical_spectral(const PhysicalParams &p,
                                 const double wavelength_nm)
 {
   const double u = double(i.nu) + o.nu, v = double(i.tau) + o.tau;
-  const auto sigma = [&](const double shift) {
-    return std::sqrt(std::pow(p.coherence_per_nm * wavelength_nm, 2) +
-                     std::pow(double(p.roughness), 2) + std::pow(p.variation * shift, 2));
-  };
-  const auto lobe = [&](const double q, const double shift) {
-    const double t = (q - shift) / sigma(shift);
-    return std::exp(-0.5 * t * t) / (sigma(shift) * std::sqrt(2.0 * M_PI));
+  const auto lobe = [&](const Lattice &axis, const double q, const double shift) {
+    const double sigma = std::sqrt(std::pow(axis.coherence_per_nm * wavelength_nm, 2) +
+                                   std::pow(double(p.roughness), 2) +
+                                   std::pow(p.variation * shift, 2));
+    const double t = (q - shift) / sigma;
+    return std::exp(-0.5 * t * t) / (sigma * std::sqrt(2.0 * M_PI));
   };
   const PhysicalLevels r = physical_levels(
       p, std::fmax(0.5 * (double(i.n) + o.n), 1e-4), wavelength_nm);
@@ -152,12 +151,12 @@ inline double physical_spectral(const PhysicalParams &p,
   const int last_m = last_order(p.across, 2.6), last_n = last_order(p.along, 2.6);
   double f = 0.0;
   for (int n = -last_n; n <= last_n; n++) {
-    const double lobe_n = lobe(v, n == 0 ? 0.0 : n * wavelength_nm / p.along.spacing_nm);
+    const double lobe_n = lobe(p.along, v, n == 0 ? 0.0 : n * wavelength_nm / p.along.spacing_nm);
     if (lobe_n < 1e-12) {
       continue;
     }
     for (int m = -last_m; m <= last_m; m++) {
-      const double lobe_m = lobe(u, m * wavelength_nm / p.across.spacing_nm);
+      const double lobe_m = lobe(p.across, u, m * wavelength_nm / p.across.spacing_nm);
       if (lobe_m < 1e-12) {
         continue;
       }

@@ -40,6 +40,8 @@ constexpr float shortest_nm = 400.0f;
 constexpr float mean_nm = 550.0f;
 /* Where the tail begins, in orders: the blue of the first order beyond the limit. */
 constexpr float tail_begin = 5.0f;
+/* A tail that ends before this is left out. */
+constexpr float tail_least = 6.5f;
 /* Fits a Gaussian's body best. */
 constexpr float logistic_per_sigma = 0.59f;
 
@@ -88,11 +90,13 @@ ICW_DEVICE Comb comb(const Lattice lattice, const float view)
   c.positive = int(smaller((1.0f + view) * per_order, float(order_limit)));
   c.tail_negative = larger((1.0f - view) * lattice.spacing_nm / mean_nm, tail_begin);
   c.tail_positive = larger((1.0f + view) * lattice.spacing_nm / mean_nm, tail_begin);
-  float power = 0.5f * lattice.duty * (1.0f - lattice.duty);
-  for (int m = 1; m <= order_limit; m++) {
-    power -= square(sinf(pi * float(m) * lattice.duty) / (pi * float(m)));
+  if (larger(c.tail_negative, c.tail_positive) > tail_least) {
+    float power = 0.5f * lattice.duty * (1.0f - lattice.duty);
+    for (int m = 1; m <= order_limit; m++) {
+      power -= square(sinf(pi * float(m) * lattice.duty) / (pi * float(m)));
+    }
+    c.tail_power = larger(power, 0.0f);
   }
-  c.tail_power = larger(power, 0.0f);
   return c;
 }
 
@@ -105,7 +109,7 @@ ICW_DEVICE float tail_scale(const Comb &c)
 /* Tails on the negative and the positive side; a side that ends before it begins has none. */
 ICW_DEVICE float tail_share(const Comb &c, const bool positive)
 {
-  return (positive ? c.tail_positive : c.tail_negative) > 1.3f * tail_begin ? c.tail_power : 0.0f;
+  return (positive ? c.tail_positive : c.tail_negative) > tail_least ? c.tail_power : 0.0f;
 }
 
 ICW_DEVICE float tail_total(const Comb &c)
@@ -159,28 +163,34 @@ ICW_DEVICE_LARGE Humps humps(const PhysicalParams &p,
                              const float contrast[2][2],
                              const int first)
 {
-  float order[lane_count], wavelength[lane_count], spread[lane_count], power[lane_count];
-  const int count = hump_count(c);
+  /* Lanes: order -1 at both humps, -2, ..., then 1, 2, ... */
+  float numbers[lane_count];
   for (int lane = 0; lane < lane_count; lane++) {
-    const int index = first + lane;
-    const int position = index / 2, hump = index % 2;
-    const bool positive = position >= c.negative;
-    const IlluminantHump h = illuminant_hump(p.illuminant, hump);
-    order[lane] = float(positive ? position - c.negative + 1 : -1 - position);
-    wavelength[lane] = h.mean_nm;
-    spread[lane] = h.sigma_nm;
-    power[lane] = index < count ? h.weight * contrast[positive ? 1 : 0][hump] : 0.0f;
+    numbers[lane] = float(first + lane);
   }
+  const Lanes number = load_lanes(numbers);
+  const Lanes position = lanes_round(0.5f * number - 0.25f);
+  const Lanes second = number - 2.0f * position;
+  const float negative = float(c.negative);
+  const IlluminantHump blue = illuminant_hump(p.illuminant, 0),
+                       red = illuminant_hump(p.illuminant, 1);
+  const auto hump = [&](const float at_blue, const float at_red) {
+    return second > 0.5f ? lanes(at_red) : lanes(at_blue);
+  };
+
   Humps lobes;
-  lobes.order = load_lanes(order);
-  const Lanes nm = load_lanes(wavelength);
+  lobes.order = position < negative ? -1.0f - position : position - negative + 1.0f;
+  const Lanes nm = hump(blue.mean_nm, red.mean_nm);
+  const Lanes power = position < negative ?
+                          hump(blue.weight * contrast[0][0], red.weight * contrast[0][1]) :
+                          hump(blue.weight * contrast[1][0], red.weight * contrast[1][1]);
   const Lanes per_nm = lobes.order / c.lattice.spacing_nm;
   lobes.mean = nm * per_nm;
-  const Lanes spread_nm = load_lanes(spread) * per_nm;
+  const Lanes spread_nm = hump(blue.sigma_nm, red.sigma_nm) * per_nm;
   lobes.scale = logistic_per_sigma *
-                lanes_sqrt(lobe_variance(p, nm, lobes.mean) + spread_nm * spread_nm);
+                lanes_sqrt(lobe_variance(p, c.lattice, nm, lobes.mean) + spread_nm * spread_nm);
   const Lanes amplitude = order_amplitude(lobes.order, lanes(c.lattice.duty));
-  lobes.power = load_lanes(power) * amplitude * amplitude;
+  lobes.power = number < float(hump_count(c)) ? power * amplitude * amplitude : lanes(0.0f);
   return lobes;
 }
 
@@ -207,7 +217,8 @@ struct Mixture {
   /* The part of the other axis that is open: the factor of an axis' own orders, and what the
    * orders (m, n) of one m add up to. */
   float open_across, open_along;
-  float sigma_0;
+  /* Standard deviations of the mirror lobe. */
+  float sigma_u, sigma_v;
 };
 
 ICW_DEVICE Mixture mixture(const PhysicalParams &p,
@@ -223,7 +234,8 @@ ICW_DEVICE Mixture mixture(const PhysicalParams &p,
   }
   x.open_across = 1.0f - p.across.duty;
   x.open_along = p.along.spacing_nm > 0.0f ? 1.0f - p.along.duty : 1.0f;
-  x.sigma_0 = sqrtf(lobe_variance(p, mean_nm, 0.0f));
+  x.sigma_u = sqrtf(physical_lobe_variance(p, p.across));
+  x.sigma_v = sqrtf(physical_lobe_variance(p, p.along));
   return x;
 }
 
@@ -233,7 +245,7 @@ ICW_DEVICE float row_sigma(const PhysicalParams &p,
                            const float shift,
                            const float relative)
 {
-  return sqrtf(lobe_variance(p, wavelength_nm, shift) + square(relative * shift));
+  return sqrtf(lobe_variance(p, p.along, wavelength_nm, shift) + square(relative * shift));
 }
 
 /* Density of v in a row m != 0 of orders (m, n), light of this wavelength, known to the part
@@ -245,9 +257,9 @@ ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
                                    const float relative)
 {
   if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_density(v, x.sigma_0);
+    return logistic_density(v, x.sigma_v);
   }
-  float sum = x.open_along * logistic_density(v, x.sigma_0);
+  float sum = x.open_along * logistic_density(v, x.sigma_v);
   float left = p.along.duty;
   const float per_order = wavelength_nm / p.along.spacing_nm;
   for (int n = 1; n <= order_limit; n++) {
@@ -269,11 +281,11 @@ ICW_DEVICE float row_point(const PhysicalParams &p,
                            const float relative)
 {
   if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_point(random, x.sigma_0);
+    return logistic_point(random, x.sigma_v);
   }
   float left = random - x.open_along;
   if (left < 0.0f) {
-    return logistic_point(random / x.open_along, x.sigma_0);
+    return logistic_point(random / x.open_along, x.sigma_v);
   }
   const float per_order = wavelength_nm / p.along.spacing_nm;
   float rest = p.along.duty;
@@ -304,7 +316,7 @@ ICW_DEVICE RowWavelength row_wavelength(const PhysicalParams &p,
                                         const float order)
 {
   const float nm = clamped(u * p.across.spacing_nm / order, shortest_nm, 700.0f);
-  return {nm, x.sigma_0 * p.across.spacing_nm / (fabsf(order) * nm)};
+  return {nm, x.sigma_u * p.across.spacing_nm / (fabsf(order) * nm)};
 }
 
 }  // namespace physical_detail
@@ -383,8 +395,8 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   const Mixture x = mixture(p, view, o);
   const float u = i.nu + o.nu, v = i.tau + o.tau;
   const bool cross = p.along.spacing_nm > 0.0f;
-  const float mirror_u = logistic_density(u, x.sigma_0);
-  float sum = view.mirror_power * mirror_u * logistic_density(v, x.sigma_0);
+  const float mirror_u = logistic_density(u, x.sigma_u);
+  float sum = view.mirror_power * mirror_u * logistic_density(v, x.sigma_v);
 
   float rows = 0.0f;
   for (int first = 0; first < hump_count(x.across); first += lane_count) {
@@ -403,7 +415,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   }
   const float tail = tail_density(x.across, u) * mean_contrast(view.contrast);
   if (!cross) {
-    sum += (rows + tail) * logistic_density(v, x.sigma_0);
+    sum += (rows + tail) * logistic_density(v, x.sigma_v);
   }
   else {
     sum += x.open_along * (rows + tail * row_density(p, x, v, mean_nm, 0.2f));
@@ -435,8 +447,8 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
                            mean_contrast(x.along_contrast);
   bool found = false;
   if (left < view.mirror_power) {
-    u = logistic_point(left / view.mirror_power, x.sigma_0);
-    v = logistic_point(random_along, x.sigma_0);
+    u = logistic_point(left / view.mirror_power, x.sigma_u);
+    v = logistic_point(random_along, x.sigma_v);
     found = true;
   }
   left -= view.mirror_power;
@@ -448,7 +460,7 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
   left -= across_tail;
   if (!found && left < along_tail) {
     v = tail_point(x.along, left / along_tail);
-    u = logistic_point(random_along, x.sigma_0);
+    u = logistic_point(random_along, x.sigma_u);
     found = true;
   }
   left -= along_tail;
@@ -470,7 +482,7 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
           }
           else {
             v = q;
-            u = logistic_point(random_along, x.sigma_0);
+            u = logistic_point(random_along, x.sigma_u);
           }
           found = true;
         }

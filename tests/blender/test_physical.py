@@ -63,6 +63,7 @@ class Wires:
     illuminant: str = "EQUAL_ENERGY"
     metal_n: tuple[float, float, float] = (0.27, 0.68, 1.3)
     metal_k: tuple[float, float, float] = (3.4, 2.62, 2.4)
+    length_um: float = 6.0
     direction_rad: float = 0.0
 
     def numbers(self) -> list[float]:
@@ -71,7 +72,7 @@ class Wires:
             self.spacing_nm, self.width_nm, self.cross_spacing_nm, self.cross_width_nm,
             self.oxide_nm, self.groove_nm, self.coherence_um, self.roughness, self.variation,
             OXIDES.index(self.oxide), self.ior, METALS.index(self.metal),
-            ILLUMINANTS.index(self.illuminant), *self.metal_n, *self.metal_k,
+            ILLUMINANTS.index(self.illuminant), *self.metal_n, *self.metal_k, self.length_um,
         ]  # fmt: skip
 
     def variant(self) -> dict[str, Any]:
@@ -92,6 +93,7 @@ class Wires:
                 "Oxide IOR": self.ior,
                 "Groove Depth": self.groove_nm,
                 "Coherence Width": self.coherence_um,
+                "Wire Length": self.length_um,
                 "Roughness": self.roughness,
                 "Spacing Variation": self.variation,
                 "Metal n": self.metal_n,

@@ -3,7 +3,7 @@
 /* The PHYSICAL model as the headers evaluate it, in float as a renderer does.
  *
  * Standard input, 32-bit floats: the 9 numbers of the matrix from XYZ to the working space, row by
- * row; 19 parameters in the order read below; then for each evaluation the unit vectors to the
+ * row; 20 parameters in the order read below; then for each evaluation the unit vectors to the
  * light and to the eye, (across the wires, along them, normal). Standard output: red, green and
  * blue for each. */
 
@@ -22,7 +22,7 @@ int main()
   for (size_t count; (count = std::fread(block, sizeof(float), std::size(block), stdin)) > 0;) {
     in.insert(in.end(), block, block + count);
   }
-  constexpr size_t matrix_size = 9, param_count = 19, directions_size = 6;
+  constexpr size_t matrix_size = 9, param_count = 20, directions_size = 6;
   if (in.size() < matrix_size + param_count) {
     std::fprintf(stderr, "physical_oracle: %zu numbers are no matrix and parameters\n", in.size());
     return 2;
@@ -38,18 +38,18 @@ int main()
   const float *p = in.data() + matrix_size;
   const float spacing_nm = p[0], width_nm = p[1], cross_spacing_nm = p[2], cross_width_nm = p[3];
   const float oxide_nm = p[4], groove_nm = p[5], coherence_um = p[6], roughness = p[7];
-  const float variation = p[8], custom_ior = p[10];
-  PhysicalParams params = physical_params(physical_lattice(spacing_nm, width_nm),
-                                          physical_lattice(cross_spacing_nm, cross_width_nm),
-                                          oxide_nm,
-                                          groove_nm,
-                                          coherence_um,
-                                          roughness,
-                                          variation,
-                                          Oxide(int(p[9])),
-                                          custom_ior,
-                                          Metal(int(p[11])),
-                                          Illuminant(int(p[12])));
+  const float variation = p[8], custom_ior = p[10], length_um = p[19];
+  PhysicalParams params = physical_params(
+      physical_lattice(spacing_nm, width_nm, coherence_um),
+      physical_lattice(cross_spacing_nm, cross_width_nm, length_um),
+      oxide_nm,
+      groove_nm,
+      roughness,
+      variation,
+      Oxide(int(p[9])),
+      custom_ior,
+      Metal(int(p[11])),
+      Illuminant(int(p[12])));
   physical_set_custom_metal(params, p[13], p[14], p[15], p[16], p[17], p[18]);
 
   const MaterialTables<decltype(read)> material = {read};

@@ -13,6 +13,7 @@
 
 #include "icwafer/colour_table.h"
 #include "icwafer/cs348b_sample.h"
+#include "icwafer/material_tables.h"
 
 namespace icwafer::test {
 

@@ -52,8 +52,8 @@ ccl_device_inline float2 bsdf_ic_wafer_physical_roughness(ccl_private const Shad
 {
   ccl_private const icwafer::PhysicalParams *params =
       &((ccl_private const IcWaferPhysicalBsdf *)sc)->extra->params;
-  const float sigma = sqrtf(icwafer::physical_lobe_variance(*params));
-  return make_float2(sigma, sigma);
+  return make_float2(sqrtf(icwafer::physical_lobe_variance(*params, params->across)),
+                     sqrtf(icwafer::physical_lobe_variance(*params, params->along)));
 }
 
 /* Reflectance times cosine and the density of sampling, for directions in the local frame. */

@@ -136,7 +136,7 @@ void ICWaferBsdfNode::compile_physical(SVMCompiler &compiler)
                                          offset("Cross Width"),
                                          offset("Spacing Variation"),
                                          offset("Coherence Width")),
-                  make_int4(offset("Roughness"),
+                  make_int4(compiler.encode_uchar4(offset("Roughness"), offset("Wire Length")),
                             compiler.encode_uchar4(metal, oxide, illuminant),
                             offset("Metal n"),
                             offset("Metal k")));

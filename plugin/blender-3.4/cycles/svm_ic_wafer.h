@@ -120,7 +120,7 @@ ccl_device void svm_node_ic_wafer_cs348b(KernelGlobals kg,
 /* As above, but for
  *   data_node.z      Oxide Thickness, Oxide IOR, Direction, Groove Depth
  *   data_node.w      Cross Spacing, Cross Width, Spacing Variation, Coherence Width
- *   extra_node.x     Roughness
+ *   extra_node.x     Roughness, Wire Length
  *   extra_node.y     metal, oxide, illuminant: one byte each
  *   extra_node.z, w  Metal n, Metal k */
 ccl_device void svm_node_ic_wafer_physical(KernelGlobals kg,
@@ -135,7 +135,7 @@ ccl_device void svm_node_ic_wafer_physical(KernelGlobals kg,
 {
   uint oxide_thickness_offset, oxide_ior_offset, direction_offset, groove_offset;
   uint cross_spacing_offset, cross_width_offset, variation_offset, coherence_offset;
-  uint metal, oxide, illuminant, unused;
+  uint roughness_offset, length_offset, metal, oxide, illuminant, unused;
   svm_unpack_node_uchar4(
       data_node.z, &oxide_thickness_offset, &oxide_ior_offset, &direction_offset, &groove_offset);
   svm_unpack_node_uchar4(data_node.w,
@@ -143,6 +143,7 @@ ccl_device void svm_node_ic_wafer_physical(KernelGlobals kg,
                          &cross_width_offset,
                          &variation_offset,
                          &coherence_offset);
+  svm_unpack_node_uchar2(extra_node.x, &roughness_offset, &length_offset);
   svm_unpack_node_uchar4(extra_node.y, &metal, &oxide, &illuminant, &unused);
 
   ccl_private IcWaferPhysicalBsdf *bsdf = (ccl_private IcWaferPhysicalBsdf *)bsdf_alloc(
@@ -158,13 +159,13 @@ ccl_device void svm_node_ic_wafer_physical(KernelGlobals kg,
   bsdf->T = svm_ic_wafer_tangent(kg, sd, stack, data_node.y, direction_offset, N);
   bsdf->extra = extra;
   extra->params = icwafer::physical_params(
-      icwafer::physical_lattice(spacing_nm, width_nm),
+      icwafer::physical_lattice(spacing_nm, width_nm, stack_load_float(stack, coherence_offset)),
       icwafer::physical_lattice(stack_load_float(stack, cross_spacing_offset),
-                                stack_load_float(stack, cross_width_offset)),
+                                stack_load_float(stack, cross_width_offset),
+                                stack_load_float(stack, length_offset)),
       stack_load_float(stack, oxide_thickness_offset),
       stack_load_float(stack, groove_offset),
-      stack_load_float(stack, coherence_offset),
-      stack_load_float(stack, extra_node.x),
+      stack_load_float(stack, roughness_offset),
       stack_load_float(stack, variation_offset),
       icwafer::Oxide(oxide),
       stack_load_float(stack, oxide_ior_offset),

@@ -72,7 +72,7 @@ def _doctor(_: argparse.Namespace) -> int:
 
 def _test(arguments: list[str]) -> int:
     # At once, so that root is asked for once.
-    packages.install("base", "core", "host", "layout", "test")
+    packages.install("base", "core", "host", "layout", "import", "test")
     build.build("core")
     build.build("blender")
     return subprocess.run(

@@ -137,7 +137,7 @@ def checks() -> list[Callable[[], Finding]]:
     return [
         check_system,
         lambda: check_packages("packages to build", *purposes),
-        lambda: check_packages("packages to test", "layout", "test"),
+        lambda: check_packages("packages to test", "layout", "import", "test"),
         check_compiler_cache,
         check_space,
         lambda: check_edits(paths.host_source(), paths.HOST, paths.REPOSITORY),

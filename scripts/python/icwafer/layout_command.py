@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The command `icwafer layout`: makes, shows and checks layout files.
+"""The command `icwafer layout`: makes, imports, shows and checks layout files.
 
 Nothing is imported before it is needed: the command may have to install numpy first.
 """
@@ -12,13 +12,14 @@ from pathlib import Path
 
 from icwafer import packages
 from icwafer.errors import IcwaferError
+from icwafer.layout_import import command as import_command
 
 AddCommand = Callable[[str, str], argparse.ArgumentParser]
 
 
 def register(add: AddCommand) -> None:
     """Adds the command `layout`; `add` makes a parser from a name and a description."""
-    layout = add("layout", "make, show or check a layout file of chips and wafers")
+    layout = add("layout", "make, import, show or check a layout file of chips and wafers")
     actions = layout.add_subparsers(dest="action", required=True, metavar="ACTION")
 
     def add_action(name: str, text: str) -> argparse.ArgumentParser:
@@ -42,6 +43,8 @@ def register(add: AddCommand) -> None:
     show.add_argument("file", type=Path, metavar="FILE")
     show.add_argument("--plot", type=Path, metavar="PICTURE", help="draw it, as .svg or .png")
     show.set_defaults(run=_show)
+
+    import_command.register(add_action)
 
     check = add_action("check", "read layouts and make their dies; the first error ends it")
     check.add_argument("files", type=Path, nargs="+", metavar="FILE")

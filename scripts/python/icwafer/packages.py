@@ -16,7 +16,7 @@ _log = logging.getLogger(__name__)
 
 #: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
 #: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and draws
-#: chips and wafers, "test" are the tests that start Blender or a Slurm cluster.
+#: chips and wafers, "import" reads real chips, "test" are the tests that start Blender or Slurm.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
@@ -49,6 +49,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "opencollada-dev",
     ),
     "layout": ("python3-matplotlib",),
+    "import": ("klayout",),
     "test": (
         "blender",
         "libgl1-mesa-dri",

@@ -59,7 +59,8 @@ for variant in parameters()["variants"]:
     width, height = variant.get("size", (48, 48))
     use_cycles(width=width, height=height, samples=4)
     if variant.get("exact_pixels"):
-        bpy.context.scene.cycles.pixel_filter_type = "BOX"
+        # A box filter would be a pixel wide whatever is asked for.
+        bpy.context.scene.cycles.pixel_filter_type = "GAUSSIAN"
         bpy.context.scene.cycles.filter_width = 0.01
     bpy.context.scene.render.engine = parameters()["engine"]
     render_to(exr=variant["exr"])
