@@ -58,7 +58,7 @@ LINES = {
 }
 
 
-def places(value: object, place: toml_lines.Place = ()) -> set[toml_lines.Place]:
+def places(value: object, place: toml_lines.FieldPath = ()) -> set[toml_lines.FieldPath]:
     """All places below a value, as `tomllib` has read it."""
     items = value.items() if isinstance(value, dict) else enumerate(value)
     found = set()

@@ -18,7 +18,7 @@ from typing import Any
 from icwafer.errors import IcwaferError
 
 #: Where something stands in a document: keys of tables and indices of arrays, from the top down.
-Place = tuple[str | int, ...]
+FieldPath = tuple[str | int, ...]
 
 _TOKEN = re.compile(
     r'(?P<text>"""(?:\\.|[^\\])*?"{3,5}|\'\'\'.*?\'{3,5}|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\')'
@@ -37,15 +37,13 @@ class Document:
 
     path: Path
     data: dict[str, Any]
-    lines: dict[Place, int]
+    lines: dict[FieldPath, int]
 
-    def line(self, place: Place) -> int:
+    def line(self, place: FieldPath) -> int:
         """The line of a key or item, or of the nearest table around it; 1 for the whole file."""
-        while place and place not in self.lines:
-            place = place[:-1]
-        return self.lines.get(place, 1)
+        return _nearest_line(self.lines, place)
 
-    def error(self, place: Place, message: str) -> IcwaferError:
+    def error(self, place: FieldPath, message: str) -> IcwaferError:
         """An error that names file, line and key, to be raised."""
         name = key_name(place)
         return IcwaferError(
@@ -71,7 +69,7 @@ def read(path: Path) -> Document:
     return Document(path, data, key_lines(text))
 
 
-def key_name(place: Place) -> str:
+def key_name(place: FieldPath) -> str:
     """A place as a reader of the file would write it: `axis[2].values` for the second axis."""
     name = ""
     for part in place:
@@ -92,7 +90,19 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return f"choose from {', '.join(names)}" if names else "there is none to choose from"
 
 
-def key_lines(text: str) -> dict[Place, int]:
+def line_of(text: str, place: FieldPath) -> int:
+    """The line of a key or item of a valid TOML text, or of the nearest table around it; 1 for
+    the whole text."""
+    return _nearest_line(key_lines(text), place)
+
+
+def _nearest_line(lines: dict[FieldPath, int], place: FieldPath) -> int:
+    while place and place not in lines:
+        place = place[:-1]
+    return lines.get(place, 1)
+
+
+def key_lines(text: str) -> dict[FieldPath, int]:
     """Lines of all keys and array items of a valid TOML text."""
     return _Scan(text).lines
 
@@ -101,9 +111,9 @@ class _Scan:
     """One pass over the tokens of a text that `tomllib` has found to be valid."""
 
     def __init__(self, text: str) -> None:
-        self.lines: dict[Place, int] = {}
+        self.lines: dict[FieldPath, int] = {}
         self._tokens: list[tuple[str, int]] = []  # what is written, and on which line
-        self._lengths: dict[Place, int] = {}  # of the arrays of tables so far
+        self._lengths: dict[FieldPath, int] = {}  # of the arrays of tables so far
         self._at = 0
         line = 1
         for match in _TOKEN.finditer(text):
@@ -124,7 +134,7 @@ class _Scan:
             self._at += 1
 
     def _document(self) -> None:
-        table: Place = ()
+        table: FieldPath = ()
         self._skip_newlines()
         while self._peek():
             if self._peek() == "[":
@@ -133,7 +143,7 @@ class _Scan:
                 self._assignment(table)
             self._skip_newlines()
 
-    def _header(self) -> Place:
+    def _header(self) -> FieldPath:
         """`[a.b]` or `[[a.b]]`; returns the place of the table that it opens."""
         _, line = self._take()
         repeated = self._peek() == "["
@@ -149,7 +159,7 @@ class _Scan:
         self._at += 2 if repeated else 1
         return place
 
-    def _below(self, table: Place, keys: list[str]) -> Place:
+    def _below(self, table: FieldPath, keys: list[str]) -> FieldPath:
         """The place of a dotted key; where it leads into an array of tables, the last one."""
         for number, key in enumerate(keys):
             table = (*table, key)
@@ -168,7 +178,7 @@ class _Scan:
                 return keys
             self._take()
 
-    def _assignment(self, table: Place) -> None:
+    def _assignment(self, table: FieldPath) -> None:
         line = self._tokens[self._at][1]
         keys = self._key()
         for count in range(1, len(keys) + 1):
@@ -176,7 +186,7 @@ class _Scan:
         self._take()  # the equals sign
         self._value((*table, *keys))
 
-    def _value(self, place: Place) -> None:
+    def _value(self, place: FieldPath) -> None:
         if self._peek() == "[":
             self._array(place)
         elif self._peek() == "{":
@@ -185,7 +195,7 @@ class _Scan:
             while self._peek() not in ("", ",", "]", "}", "\n"):
                 self._take()
 
-    def _array(self, place: Place) -> None:
+    def _array(self, place: FieldPath) -> None:
         self._take()
         self._skip_newlines()
         index = 0
@@ -196,7 +206,7 @@ class _Scan:
             self._end_of_item()
         self._take()
 
-    def _inline_table(self, place: Place) -> None:
+    def _inline_table(self, place: FieldPath) -> None:
         self._take()
         while self._peek() != "}":
             self._assignment(place)

@@ -43,7 +43,7 @@ from icwafer import toml_lines
 from icwafer.chips.presets import PRESETS
 from icwafer.errors import IcwaferError, SettingError
 from icwafer.study import fields
-from icwafer.toml_lines import Document, Place, nearest
+from icwafer.toml_lines import Document, FieldPath, nearest
 
 VERSION = 1
 _KEYS = ("version", "name", "description", "base", "reference", "scene", "axis")
@@ -58,7 +58,7 @@ class Assignment:
     setting: str
     value: Any
     document: Document
-    place: Place
+    place: FieldPath
 
     def error(self, message: str) -> IcwaferError:
         """The error that this setting is wrong, for the reader of the file."""
@@ -180,7 +180,7 @@ def _axes(document: Document, inherited: tuple[Axis, ...]) -> tuple[Axis, ...]:
     axes = {axis.name: axis for axis in inherited}
     named: set[str] = set()
     for number, table in enumerate(given):
-        place: Place = ("axis", number)
+        place: FieldPath = ("axis", number)
         _expect_keys(document, place, table, _AXIS_KEYS)
         name = _text(document, place, "name")
         if name in named:
@@ -191,14 +191,14 @@ def _axes(document: Document, inherited: tuple[Axis, ...]) -> tuple[Axis, ...]:
     return tuple(axes.values())
 
 
-def _cases(document: Document, place: Place) -> tuple[Step, ...]:
+def _cases(document: Document, place: FieldPath) -> tuple[Step, ...]:
     table = _at(document, place)
     for key in table:
         if key not in ("name", "unit", "case"):
             raise document.error((*place, key), "does not go with case: leave one of them out")
     steps: list[Step] = []
     for number, case in enumerate(table["case"]):
-        here: Place = (*place, "case", number)
+        here: FieldPath = (*place, "case", number)
         _expect_keys(document, here, case, ("name", "scene"))
         label = case.get("name")
         if isinstance(label, bool) or not isinstance(label, (int, float, str)) or label == "":
@@ -210,7 +210,7 @@ def _cases(document: Document, place: Place) -> tuple[Step, ...]:
     return _some(document, (*place, "case"), steps)
 
 
-def _values(document: Document, place: Place) -> tuple[Step, ...]:
+def _values(document: Document, place: FieldPath) -> tuple[Step, ...]:
     table = _at(document, place)
     if "set" not in table:
         raise document.error(place, "has neither set nor case: say which setting it sweeps")
@@ -224,7 +224,7 @@ def _values(document: Document, place: Place) -> tuple[Step, ...]:
     steps: list[Step] = []
     labels: set[str] = set()
     for number, value in enumerate(values):
-        here: Place = (*place, "values", number)
+        here: FieldPath = (*place, "values", number)
         parts = value if together else [value]
         if not isinstance(parts, list) or len(parts) != len(settings):
             raise document.error(here, f"has not {len(settings)} values, one for each setting")
@@ -249,7 +249,7 @@ def _name_of(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _range(document: Document, place: Place) -> list[float]:
+def _range(document: Document, place: FieldPath) -> list[float]:
     table = _at(document, place)
     for key in ("from", "to", "count"):
         if not isinstance(table.get(key), (int, float)):
@@ -277,20 +277,20 @@ def _round(value: float) -> float:
     return int(rounded) if rounded == int(rounded) and math.isfinite(rounded) else rounded
 
 
-def _some(document: Document, place: Place, steps: list[Step]) -> tuple[Step, ...]:
+def _some(document: Document, place: FieldPath, steps: list[Step]) -> tuple[Step, ...]:
     if not steps:
         raise document.error(place, "is empty: give one value at least")
     return tuple(steps)
 
 
-def _assignments(document: Document, place: Place, table: Any) -> Iterator[Assignment]:
+def _assignments(document: Document, place: FieldPath, table: Any) -> Iterator[Assignment]:
     """The settings of a table of a scene, nested as one likes; names inside `node` and `data`
     are taken as they stand."""
     for setting, value, here in _leaves(table, place, ""):
         yield _assignment(document, here, setting, value, document.path.parent)
 
 
-def _leaves(table: Any, place: Place, prefix: str) -> Iterator[tuple[str, Any, Place]]:
+def _leaves(table: Any, place: FieldPath, prefix: str) -> Iterator[tuple[str, Any, FieldPath]]:
     for key, value in table.items():
         setting, here = f"{prefix}{key}", (*place, key)
         if isinstance(value, Mapping) and not fields.is_leaf(setting):
@@ -300,7 +300,7 @@ def _leaves(table: Any, place: Place, prefix: str) -> Iterator[tuple[str, Any, P
 
 
 def _assignment(
-    document: Document, place: Place, setting: str, value: Any, folder: Path
+    document: Document, place: FieldPath, setting: str, value: Any, folder: Path
 ) -> Assignment:
     try:
         checked = fields.check(setting, value)
@@ -318,7 +318,7 @@ def _assignment(
     return assignment
 
 
-def _expect_keys(document: Document, place: Place, table: Any, known: tuple[str, ...]) -> None:
+def _expect_keys(document: Document, place: FieldPath, table: Any, known: tuple[str, ...]) -> None:
     if not isinstance(table, Mapping):
         raise document.error(place, "is no table")
     for key in table:
@@ -326,21 +326,21 @@ def _expect_keys(document: Document, place: Place, table: Any, known: tuple[str,
             raise document.error((*place, key), f"is unknown: {nearest(key, known)}")
 
 
-def _at(document: Document, place: Place) -> Any:
+def _at(document: Document, place: FieldPath) -> Any:
     value: Any = document.data
     for part in place:
         value = value[part]
     return value
 
 
-def _table(document: Document, place: Place, key: str) -> Mapping[str, Any]:
+def _table(document: Document, place: FieldPath, key: str) -> Mapping[str, Any]:
     table = _at(document, place).get(key, {})
     if not isinstance(table, Mapping):
         raise document.error((*place, key), "is no table of settings")
     return table
 
 
-def _text(document: Document, place: Place, key: str, default: str | None = None) -> str:
+def _text(document: Document, place: FieldPath, key: str, default: str | None = None) -> str:
     value = _at(document, place).get(key, default)
     if value is None:
         raise document.error(place, f"has no {key}: add it")
