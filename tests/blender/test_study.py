@@ -208,7 +208,7 @@ class BlendFileTest(StudyCase):
     def test_settings_reach_the_scene_and_scripts_do_not_run(self) -> None:
         axes = (
             '[[axis]]\nname = "d"\nset = "node.Wire Spacing"\nvalues = [700, 1200]\n'
-            "[[axis]]\nname = \"x\"\nset = 'data.objects[\"Lamp\"].location'\n"
+            '[[axis]]\nname = "x"\nset = \'data.objects["Lamp"].location\'\n'
             "values = [[0, -2, 3], [2, 0, 3]]\n"
         )
         study = self.study(self.head("") + axes)
@@ -224,7 +224,10 @@ class BlendFileTest(StudyCase):
 
     def test_paths_that_lead_nowhere(self) -> None:
         for line, words in (
-            ("data.'objects[\"Lmp\"].location' = [0, 0, 1]", "leads nowhere: did you mean 'Lamp'?"),
+            (
+                "data.'objects[\"Lmp\"].location' = [0, 0, 1]",
+                "leads nowhere: did you mean 'Lamp'?",
+            ),
             ("data.'objcts[\"Lamp\"].location' = [0, 0, 1]", "did you mean 'objects'?"),
             ("data.'objects[\"Lamp\"].locatio' = [0, 0, 1]", "did you mean 'location'?"),
             ("data.'objects[\"Lamp\"].location' = [0, 1]", "is not possible here: "),

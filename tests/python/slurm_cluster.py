@@ -110,9 +110,9 @@ class Cluster:
             self.kill_node(name)
 
     def _is_up(self) -> bool:
-        return self.slurm("sinfo", "--noheader", "--Node", "--format=%t").split() == ["idle"] * len(
-            NODES
-        )
+        return self.slurm("sinfo", "--noheader", "--Node", "--format=%t").split() == [
+            "idle"
+        ] * len(NODES)
 
     def _munge(self) -> None:
         folder = self.folder / "munge"
@@ -129,7 +129,9 @@ class Cluster:
         self._run("munged", "munged", "--foreground", *options, user=user)
         wait_until((folder / "socket").exists, 10, f"munged; its log is in {folder}")
 
-    def _run(self, name: str, program: str, *arguments: str | Path, user: str | None = None) -> None:
+    def _run(
+        self, name: str, program: str, *arguments: str | Path, user: str | None = None
+    ) -> None:
         path = shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")
         if path is None:
             raise AssertionError(f"{program} is missing: run scripts/icwafer test, or apt-get")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Stands in for Blender where a test is about the engine: takes the same command line and requests.
+"""Stands in for Blender in tests of the engine: takes the same command line and requests.
 
 Its images are bytes made from the settings, so that the same settings give the same files. The
 exposure tells it what to do: 1 crash, 2 fail, 3 hang, 4 crash unless it is the worker's first job;

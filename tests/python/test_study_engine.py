@@ -82,7 +82,9 @@ class ResultsTest(StudyCase):
         self.render(study, output)
         other = study.rename(self.folder / "other.toml")
         said = self.render(other, output, status=1)
-        self.assertIn("holds the results of study.toml; choose another folder for other.toml", said)
+        self.assertIn(
+            "holds the results of study.toml; choose another folder for other.toml", said
+        )
 
     def test_orders_can_be_drawn_where_all_wires_are_alike(self) -> None:
         output = self.folder / "out"
@@ -174,7 +176,9 @@ class CrashTest(StudyCase):
         self.assertEqual({facts["threads"] for facts in self.facts(output).values()}, {1})
 
     def test_a_renderer_that_does_not_start(self) -> None:
-        broken = write(self.folder / "blender", "#!/bin/sh\necho Error: no libfoo; exit 3\n", 0o755)
+        broken = write(
+            self.folder / "blender", "#!/bin/sh\necho Error: no libfoo; exit 3\n", 0o755
+        )
         for path, words in (
             (broken, "blender does not start: Error: no libfoo; scripts/icwafer doctor"),
             (self.folder / "nothing", "there is no Blender at"),

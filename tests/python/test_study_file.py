@@ -7,13 +7,19 @@ import dataclasses
 import json
 import unittest
 
+import numpy as np
 from study_support import HEAD, StudyCase, axis
 from support import write
 
+from icwafer import dependencies
+from icwafer.chips.document import write_layout
+from icwafer.chips.model import BlockTable, DieSpec, Group, Kind, Layout
 from icwafer.chips.presets import PRESETS
+from icwafer.chips.spread import Normal
 from icwafer.errors import IcwaferError, SettingError
 from icwafer.pictures import PICTURES
 from icwafer.study import document, fields, plan
+from icwafer.study.command import STUDIES
 from icwafer.study.plan import Plan
 
 
@@ -182,7 +188,9 @@ class RefusalsTest(ReadingCase):
         self.refused(5, "lights number 1: colr is unknown: did you mean 'colour'?",
                      lamp + "colr = 1\n")  # fmt: skip
         self.refused(5, "lights number 2 has no kind: add it", lamp + "[[scene.lights]]\n")
-        self.refused(5, "lights number 1: power_w is -1: allowed are 0 to", lamp.replace("= 1", "= -1"))
+        self.refused(
+            5, "lights number 1: power_w is -1: allowed are 0 to", lamp.replace("= 1", "= -1")
+        )
 
     def test_axes(self) -> None:
         twice = axis("a", "render.seed", [1])
@@ -212,7 +220,8 @@ class RefusalsTest(ReadingCase):
     def test_circles(self) -> None:
         write(self.folder / "a.toml", 'version = 1\nbase = "study.toml"\n')
         with self.assertRaisesRegex(
-            IcwaferError, r"a.toml:2: base goes round in a circle: study.toml -> a.toml -> study.toml"
+            IcwaferError,
+            r"a.toml:2: base goes round in a circle: study.toml -> a.toml -> study.toml",
         ):
             self.plan(head='version = 1\nname = "x"\nbase = "a.toml"\n')
 
@@ -224,6 +233,43 @@ class RefusalsTest(ReadingCase):
                      head=HEAD.replace("[scene]", "reference.x = 3\n[scene]"))  # fmt: skip
         self.refused(5, "data.x is a data path, which only a scene from a .blend file has",
                      "data.x = 1\n")  # fmt: skip
+
+
+class BlocksTest(ReadingCase):
+    def test_a_layout_that_lists_its_blocks(self) -> None:
+        table = BlockTable.from_um(np.array([[0, 0, 900, 900], [900, 0, 1800, 900]]), [0, 1])
+        groups = (Group("one", Kind.LOGIC, Normal(900)), Group("two", Kind.LOGIC, Normal(1000)))
+        path = self.folder / "chip.layout.toml"
+        keys = []
+        for width_mm in (1.8, 1.9):
+            write_layout(path, Layout((DieSpec(groups, width_mm=width_mm, height_mm=0.9,
+                                               blocks=table),)))  # fmt: skip
+            for cache in (fields.layout_settings, fields.layout_die, dependencies.file_hash):
+                cache.cache_clear()
+            made = self.plan(
+                'layout = "chip.layout.toml"\n',
+                axis("d", "die.groups.two.spacing_nm", [1100, 1200]),
+            )
+            keys += [job.key for job in made.jobs]
+            die = fields.picture_of(made.jobs[1].scene).die
+            self.assertEqual((len(die.blocks), die.width_mm), (2, width_mm))
+            self.assertEqual(die.groups[1].spacing_nm, Normal(1200))
+        self.assertEqual(len(set(keys)), 4)
+
+
+class StudiesTest(unittest.TestCase):
+    """Those that come with the project."""
+
+    def test_all_make_sense_and_sweep_every_input_of_the_node(self) -> None:
+        swept = set()
+        for path in STUDIES.glob("*.toml"):
+            made = plan.make(document.read(path), "program")
+            self.assertGreater(len(made.jobs), 3, path)
+            self.assertTrue(made.study.description, path)
+            steps = [step for a in made.study.axes for step in a.steps]
+            swept |= {a.setting for step in steps for a in step.assignments}
+        unswept = {f"node.{name}" for name in fields.node_inputs()} - swept
+        self.assertEqual(unswept, set())
 
 
 class SettingsTest(unittest.TestCase):

@@ -50,7 +50,9 @@ class SlurmTest(StudyCase):
         output = self.folder / "cancelled"
         with self.start(self.study(SEEDS), output, *SLURM) as process:
             wait_until(lambda: self.cluster.running_on("node1"), 30, "a task on node1")
-            subprocess.run(["scancel", f"--user={getpass.getuser()}"], env=self.environment, check=True)
+            subprocess.run(
+                ["scancel", f"--user={getpass.getuser()}"], env=self.environment, check=True
+            )
             _, err = process.communicate(timeout=30)
         self.assertEqual(process.returncode, 1)
         self.assertIn("was cancelled; run the same command again", err)

@@ -35,7 +35,9 @@ y = 2
 x = 3
 [[list.deep]]
 z = 'it''s'
-'''.replace("'it''s'", "'its'")
+'''.replace(
+    "'it''s'", "'its'"
+)
 
 LINES = {
     ("name",): 2,

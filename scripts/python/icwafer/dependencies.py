@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a script of this package depends on, so that its results are made anew when that changes."""
+"""What a script of this package depends on: when that changes, its results are made anew."""
 
 from __future__ import annotations
 

@@ -6,7 +6,8 @@
     plan       a Study becomes jobs, each with a key (keys) of all that its result depends on
     store      the folder of results: what is finished, and how a result appears in it
     order      what is rendered, where and with what
-    local      renders jobs on this machine with worker processes (workers); worker is Blender's side
+    local      renders jobs on this machine with worker processes (workers)
+    worker     Blender's side of that
     slurm      has a cluster do the same; slurm_task runs on its nodes
     run        from a study file to a folder of results
     command    the command line

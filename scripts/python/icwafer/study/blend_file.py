@@ -48,7 +48,9 @@ def build(settings: fields.Scene) -> bpy.types.Scene:
         elif part == "render":
             _set_render(scene, rest, value)
         elif part == "view":
-            blender_scene.assign(scene.view_settings, blender_scene.VIEW_ATTRIBUTES[rest], value, setting)
+            blender_scene.assign(
+                scene.view_settings, blender_scene.VIEW_ATTRIBUTES[rest], value, setting
+            )
     return scene
 
 
@@ -95,7 +97,9 @@ def _set_data(setting: str, path: str, value: Any) -> None:
     except ValueError:
         raise SettingError(f"leads nowhere: {_nearest_name(path)}", setting) from None
     properties = getattr(owner, "bl_rna", None)
-    names = [p.identifier for p in properties.properties if not p.is_readonly] if properties else []
+    names = (
+        [p.identifier for p in properties.properties if not p.is_readonly] if properties else []
+    )
     if attribute not in names:
         raise SettingError(f"leads nowhere: {nearest(attribute, names)}", setting)
     blender_scene.assign(owner, attribute, value, setting)

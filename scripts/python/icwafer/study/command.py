@@ -69,7 +69,11 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         "--isolate", action="store_true", help="start Blender anew for every image"
     )
     command.add_argument(
-        "--timeout", type=_seconds, default=3600.0, metavar="S", help="for one image (%(default)g s)"
+        "--timeout",
+        type=_seconds,
+        default=3600.0,
+        metavar="S",
+        help="for one image (%(default)g s)",
     )
     command.add_argument("--engine", choices=("local", "slurm"), default="local")
     command.add_argument(

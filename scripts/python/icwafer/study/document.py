@@ -307,8 +307,10 @@ def _assignment(
     except SettingError as error:
         raise Assignment(setting, value, document, place).error(str(error)) from None
     assignment = Assignment(setting, checked, document, place)
-    if setting in fields.FILES and checked and not (
-        setting == fields.LAYOUT and checked in PRESETS
+    if (
+        setting in fields.FILES
+        and checked
+        and not (setting == fields.LAYOUT and checked in PRESETS)
     ):
         path = (folder / checked).resolve()
         if not path.is_file():

@@ -26,7 +26,7 @@ from typing import Any
 from icwafer import paths
 from icwafer.chips.check import check_die
 from icwafer.chips.document import read_layout
-from icwafer.chips.model import BlockTable, DieSpec, Kind
+from icwafer.chips.model import BlockTable, DieSpec
 from icwafer.chips.presets import PRESETS
 from icwafer.chips.rules import Rule
 from icwafer.chips.spread import Clustered, Normal, Spread, Uniform
@@ -97,7 +97,7 @@ def picture_of(scene: Mapping[str, Any]) -> Picture:
     """
     tree = {"caption": "", "lights": {}} | _nested(scene)
     file = scene.get(BLOCKS)
-    tree["die"]["blocks"] = _product(file).blocks if file else None
+    tree["die"]["blocks"] = layout_die(file).blocks if file else None
     return _build(Picture, tree)
 
 
@@ -120,7 +120,7 @@ def layout_settings(layout: str) -> Scene:
 
     Raises IcwaferError for a file that is no layout.
     """
-    die = PRESETS[layout].dies[0] if layout in PRESETS else _product(layout)
+    die = PRESETS[layout].dies[0] if layout in PRESETS else layout_die(layout)
     blocks = {BLOCKS: layout} if die.blocks is not None else {}
     return _checked_all(flatten(dataclasses.replace(die, blocks=None), "die.")) | blocks
 
@@ -131,7 +131,8 @@ def _checked_all(scene: Scene) -> Scene:
 
 
 @functools.cache
-def _product(file: str) -> DieSpec:
+def layout_die(file: str) -> DieSpec:
+    """The first die of a layout file. Raises IcwaferError for a file that is no layout."""
     return read_layout(Path(file)).dies[0]
 
 
@@ -303,7 +304,9 @@ def _spread(value: Any) -> Spread:
     """From its mean or its fields. Raises KeyError for fields that no spread has."""
     if not isinstance(value, Mapping):
         return Normal(value)
-    names = next((names for names in _SPREADS if {*value, "deviation"} >= {*names} >= {*value}), ())
+    names = next(
+        (names for names in _SPREADS if {*value, "deviation"} >= {*names} >= {*value}), ()
+    )
     fields = (value.get(name, 0.0) for name in names)
     return _SPREADS[names](*(tuple(f) if isinstance(f, list) else f for f in fields))
 

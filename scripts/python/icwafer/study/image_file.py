@@ -46,7 +46,7 @@ def copy(source: Path, target: Path, attributes: Mapping[str, str] | None = None
 
 
 def attributes(path: Path) -> dict[str, str]:
-    """Our attributes of an image, without `PREFIX`. Raises IcwaferError where it cannot be read."""
+    """Our attributes of an image, without `PREFIX`. Raises IcwaferError where there is none."""
     file = oiio.ImageInput.open(str(path))
     if file is None:
         raise IcwaferError(f"{path}: {oiio.geterror() or 'cannot be read'}")

@@ -69,7 +69,9 @@ def render(
                 attempt: _Attempt | None = worker.task
                 if isinstance(reply, str):
                     if attempt is None:
-                        raise IcwaferError(f"the renderer {reply}; scripts/icwafer doctor checks it")
+                        raise IcwaferError(
+                            f"the renderer {reply}; scripts/icwafer doctor checks it"
+                        )
                     if worker.done and not attempt.again:
                         waiting.appendleft((attempt.job, True))
                         continue

@@ -53,9 +53,7 @@ class Plan:
                 yield from step.assignments
 
 
-def make(
-    study: Study, program: str, needs: Mapping[str, Sequence[str]] | None = None
-) -> Plan:
+def make(study: Study, program: str, needs: Mapping[str, Sequence[str]] | None = None) -> Plan:
     """The jobs of a study.
 
     program: stands for the renderer in the keys, the hash of its file. needs: for files that the

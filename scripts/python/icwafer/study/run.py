@@ -61,9 +61,7 @@ def missing(order: Order, made: Plan) -> list[Job]:
     """The wanted jobs whose results are not there, or of other settings or another program."""
     store, wanted = Store(order.folder), set(order.only)
     return [
-        job
-        for job in made.jobs
-        if (not wanted or job.id in wanted) and not store.is_finished(job)
+        job for job in made.jobs if (not wanted or job.id in wanted) and not store.is_finished(job)
     ]
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Has a Slurm cluster render the jobs of a study, as one job array, and collects the results.
 
-Every task of the array renders its share of the jobs (`icwafer.study.slurm_task`) straight into the
-folder of the results, which all nodes must see under the same path, as well as Blender and this
-repository. A task whose node dies is queued again by Slurm, and then renders only what is missing.
+Every task of the array renders its share of the jobs (`icwafer.study.slurm_task`) straight into
+the folder of the results, which all nodes must see under the same path, as well as Blender and
+this repository. A task whose node dies is queued again by Slurm, and then renders only what is missing.
 Where this process is killed the array goes on; started again, it waits for the same array.
 """
 
@@ -44,9 +44,7 @@ def engine(options: tuple[str, ...] = ()) -> Engine:
     if not shutil.which("sbatch"):
         raise IcwaferError("there is no sbatch here: install slurm-client, or use --engine local")
 
-    def render(
-        jobs: Sequence[Job], made: Plan, store: Store, order: Order
-    ) -> Iterator[Outcome]:
+    def render(jobs: Sequence[Job], made: Plan, store: Store, order: Order) -> Iterator[Outcome]:
         return _Collector(store, order, made.study.name, options).render(jobs)
 
     return render

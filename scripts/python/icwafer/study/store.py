@@ -64,7 +64,7 @@ class Store:
             yield
 
     def arrange(self, jobs: Sequence[Job]) -> None:
-        """Puts results that no job asks for aside, and takes back those that one asks for again."""
+        """Puts results that no job asks for aside, and takes back what is asked for again."""
         aside = self.folder / "unused"
         wanted = {job.id for job in jobs}
         for path in list(self.jobs.iterdir()):
