@@ -73,8 +73,9 @@ ICW_DEVICE_LARGE PolarisedFilmPair<Real> film_on_metal(const Real cos_air,
   const Real sin_squared = 1.0f - cos_air * cos_air;
   const Real film_squared = film_ior * film_ior;
   const Complex<Real> metal_squared = metal * metal;
-  /* n cos theta in the film and in the metal; in air it is the cosine. */
-  const Real film = real_sqrt(film_squared - sin_squared);
+  /* n cos theta in the film and in the metal; in air it is the cosine. Written so that a film of
+   * index 1 keeps it at grazing light too. */
+  const Real film = real_sqrt((film_squared - 1.0f) + cos_air * cos_air);
   const Complex<Real> below = decaying_sqrt<Real>(
       {metal_squared.re - sin_squared, metal_squared.im});
 

@@ -60,10 +60,10 @@
     "Relative standard deviation of the spacing, without unit: blocks of wires smaller than a " \
     "pixel. 0.05 for a group of blocks of 1000 nm +- 50 nm. Blurs the colours as distance does, " \
     "outer ones more") \
-  X(coherence_width, "Coherence Width", 15.0f, 1.0f, 200.0f, NONE, PHYSICAL, \
+  X(coherence_width, "Coherence Width", 10.0f, 1.0f, 200.0f, NONE, PHYSICAL, \
     "Width across the wires of the patch that interferes, in micrometres: spacing times the " \
-    "number of wires in it. 3: pastel, 15: soft, 100: a sharp spectrum") \
-  X(wire_length, "Wire Length", 3.0f, 0.5f, 200.0f, NONE, PHYSICAL, \
+    "number of wires in it. 3: pastel, 10: soft, 100: a sharp spectrum") \
+  X(wire_length, "Wire Length", 2.0f, 0.5f, 200.0f, NONE, PHYSICAL, \
     "Length over which wires run on undisturbed, in micrometres. Logic: 1 to 10, memory: 20 to " \
     "50, power mesh and optical disc: 200. Short wires spread the colours along themselves") \
   X(roughness, "Roughness", 0.05f, 0.0f, 0.6f, FACTOR, PHYSICAL, \

@@ -142,6 +142,10 @@ namespace physical_detail {
 
 constexpr float first_nm = float(visible_first_nm);
 constexpr float last_nm = float(visible_last_nm);
+/* Without the ends, at which the eye hardly sees: 0.2 % of blue and 0.1 % of red, which only share
+ * in a mean. */
+constexpr float grid_first_nm = 390.0f;
+constexpr float grid_last_nm = 730.0f;
 /* The shortest wavelength that matters to the eye: fringes are finest there. */
 constexpr float blue_nm = 420.0f;
 /* Bandwidth of a Gaussian of standard deviation 1 that leaves 0.1 % of it, and where it is cut
@@ -233,8 +237,10 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
   const float cosine_1 = cosf(two_pi * lattice.duty);
   float cosine = cosine_1, before = 1.0f;
   float left = lattice.duty * (1.0f - lattice.duty);
+  /* No direction is as far from another as this order. */
+  const float horizon = 2.0f * lattice.spacing_nm / first_nm;
   int first = 1;
-  for (; groups.count < group_limit; groups.count++) {
+  for (; groups.count < group_limit && float(first) <= horizon; groups.count++) {
     const int last = first + (2 * first) / 5;
     float weight = 0.0f;
     for (int m = first; m <= last; m++) {
@@ -249,8 +255,11 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
     left -= 2.0f * weight;
     first = last + 1;
   }
-  groups.rest = square(open) * larger(left, 0.0f);
-  groups.total = square(open) * lattice.duty * (1.0f - lattice.duty);
+  groups.rest = float(first) <= horizon ? square(open) * larger(left, 0.0f) : 0.0f;
+  groups.total = groups.rest;
+  for (int group = 0; group < groups.count; group++) {
+    groups.total += 2.0f * groups.weight[group];
+  }
   return groups;
 }
 
@@ -582,8 +591,8 @@ struct Integrator {
  * Given u and v the wavelengths are known, so nothing is chosen at random. The trapezoid rule
  * with step h is exact for a product of bandwidth below 2 pi / h; what varies is the film with
  * k per nanometre, and a lobe (bandwidth 3.8 / sigma_lambda) or the sensitivities times the lamp,
- * whichever is narrower. Three quarters of the bandwidth of film and lamp, at which 0.1 % of the
- * amplitude is left, keep the integral within 0.2 %. */
+ * whichever is narrower. Seven tenths of the bandwidth of film and lamp, at which 0.1 % of the
+ * amplitude is left, keep the integral within 0.3 %. */
 template<typename Tables>
 ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
                                    const LocalDirection i,
@@ -644,7 +653,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
            sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q));
   };
   const auto step_nm = [&](const float lobe_per_nm) {
-    return two_pi / (larger(lobe_per_nm, 0.75f * lamp_per_nm) + 0.75f * film_per_nm);
+    return two_pi / (larger(lobe_per_nm, 0.7f * lamp_per_nm) + 0.7f * film_per_nm);
   };
   const float blurred_orders = sqrtf(lobe_variance(p, nodes.first, first_nm, q)) * spacing_nm /
                                last_nm;
@@ -660,7 +669,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
     const float sigma_least = sigma_nm(first_nm);
     const float grid_step = step_nm(blurred_orders > 0.7f ? 0.0f :
                                                             gaussian_bandwidth / sigma_least);
-    if (node_count < (last_nm - first_nm) / grid_step) {
+    if (node_count < (grid_last_nm - grid_first_nm) / grid_step) {
       nodes.orders = Orders::Single;
       const float sigma_last = sigma_nm(
           clamped(q * spacing_nm / float(order_last), first_nm, last_nm));
@@ -709,8 +718,8 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   const float exact_step = step_nm(lobe_per_nm);
   nodes.whole = exact_step > whole_step_nm;
   const float step = nodes.whole ? floorf(exact_step) : exact_step;
-  const float begin = first_nm + (nodes.whole ? floorf(0.5f * step) : 0.5f * step);
-  for (float node = begin; node < last_nm; node += step) {
+  const float begin = grid_first_nm + (nodes.whole ? floorf(0.5f * step) : 0.5f * step);
+  for (float node = begin; node < grid_last_nm; node += step) {
     nodes.add(node, step, 0.0f);
   }
   nodes.flush();

@@ -45,7 +45,7 @@ constexpr float tail_least = 6.5f;
 /* Fits a Gaussian's body best. */
 constexpr float logistic_per_sigma = 0.59f;
 
-ICW_DEVICE Lanes logistic_density(const Lanes x, const Lanes scale)
+ICW_DEVICE Lanes logistic_lobes(const Lanes x, const Lanes scale)
 {
   const Lanes t = x / scale;
   const Lanes e = lanes_exp2(lanes_max(-1.44269504f * lanes_max(t, -t), lanes(-60.0f)));
@@ -215,7 +215,7 @@ struct Mixture {
   /* Both sides alike: for orders along the wires the mirror's. */
   float along_contrast[2][2];
   /* The part of the other axis that is open: the factor of an axis' own orders, and what the
-   * orders (m, n) of one m add up to. */
+   * orders (m, n) of one m add up to. That of the wires along is divided by, so never 0. */
   float open_across, open_along;
   /* Standard deviations of the mirror lobe. */
   float sigma_u, sigma_v;
@@ -233,7 +233,7 @@ ICW_DEVICE Mixture mixture(const PhysicalParams &p,
     x.along_contrast[1][hump] = view.mirror_contrast[hump];
   }
   x.open_across = 1.0f - p.across.duty;
-  x.open_along = p.along.spacing_nm > 0.0f ? 1.0f - p.along.duty : 1.0f;
+  x.open_along = p.along.spacing_nm > 0.0f ? larger(1.0f - p.along.duty, 1e-6f) : 1.0f;
   x.sigma_u = sqrtf(physical_lobe_variance(p, p.across));
   x.sigma_v = sqrtf(physical_lobe_variance(p, p.along));
   return x;
@@ -401,7 +401,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   float rows = 0.0f;
   for (int first = 0; first < hump_count(x.across); first += lane_count) {
     const Humps lobes = humps(p, x.across, view.contrast, first);
-    const Lanes density = lobes.power * logistic_density(u - lobes.mean, lobes.scale);
+    const Lanes density = lobes.power * logistic_lobes(u - lobes.mean, lobes.scale);
     if (!cross) {
       rows += lanes_sum(density);
       continue;
@@ -422,7 +422,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
     float along = tail_density(x.along, v) * mean_contrast(x.along_contrast);
     for (int first = 0; first < hump_count(x.along); first += lane_count) {
       const Humps lobes = humps(p, x.along, x.along_contrast, first);
-      along += lanes_sum(lobes.power * logistic_density(v - lobes.mean, lobes.scale));
+      along += lanes_sum(lobes.power * logistic_lobes(v - lobes.mean, lobes.scale));
     }
     sum += square(x.open_across) * along * mirror_u;
   }

@@ -50,6 +50,8 @@ struct Model {
   int chi_squared_sets;
   /* In the ranges that artists use. */
   std::function<std::unique_ptr<Surface>(Random &)> random;
+  /* Where most is reflected and the energy is hardest to bound; may be empty where it is not. */
+  std::function<std::unique_ptr<Surface>(Random &)> brightest;
   /* Anything that a texture may hold, NaN and infinities included. */
   std::function<std::unique_ptr<Surface>(Random &)> any;
 };
@@ -82,6 +84,14 @@ inline std::vector<double> edges_around(const double centre, const std::vector<d
     }
   }
   std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+inline std::vector<double> merged(const std::vector<double> &a, const std::vector<double> &b)
+{
+  std::vector<double> edges;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(edges));
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
@@ -129,7 +139,8 @@ class Cs348bSurface : public Surface {
   {
     /* |v|^p has a cusp at v = 0. */
     return {even_edges(std::max(p_.lobe_width / 3.0f, 1.0f / 6000.0f)),
-            edges_around(-o.tau, {0.0, 0.01, 0.05, 0.15, 0.35, 0.65, 1.0, 1.4})};
+            edges_around(-o.tau,
+                         {0.0, 0.01, 0.03, 0.08, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 1.0, 1.2, 1.4})};
   }
 
   std::string description() const override
@@ -201,16 +212,23 @@ class PhysicalSurface : public Surface {
 
   Bins bins(const LocalDirection o) const override
   {
+    using physical_detail::mean_nm, physical_detail::tail_begin;
     const double sigma = std::sqrt(physical_lobe_variance(p_, p_.across));
-    const double sigma_v = std::sqrt(physical_lobe_variance(p_, p_.along));
+    const double sigma_along = std::sqrt(physical_lobe_variance(p_, p_.along));
+    /* The density has a step where its tails begin. */
+    const double tail_across = tail_begin * mean_nm / p_.across.spacing_nm;
     if (p_.along.spacing_nm > 0.0f) {
-      return {even_edges(std::min(0.5 * sigma, 0.05)), even_edges(std::min(0.5 * sigma_v, 0.05))};
+      const double tail_along = tail_begin * mean_nm / p_.along.spacing_nm;
+      return {merged(even_edges(std::min(0.5 * sigma, 0.05)), edges_around(-o.nu, {tail_across})),
+              merged(even_edges(std::min(0.5 * sigma_along, 0.05)),
+                     edges_around(-o.tau, {tail_along}))};
     }
     std::vector<double> distances = {0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 13.0};
     for (double &distance : distances) {
-      distance *= sigma_v;
+      distance *= sigma_along;
     }
-    return {even_edges(std::min(sigma / 3.0, 0.05)), edges_around(-o.tau, distances)};
+    return {merged(even_edges(std::min(sigma / 3.0, 0.05)), edges_around(-o.nu, {tail_across})),
+            edges_around(-o.tau, distances)};
   }
 
   std::string description() const override
@@ -219,7 +237,7 @@ class PhysicalSurface : public Surface {
     text << "spacing " << p_.across.spacing_nm << " nm, duty " << p_.across.duty << ", across "
          << p_.along.spacing_nm << " nm, duty " << p_.along.duty << ", oxide " << p_.oxide_nm
          << " nm of index " << p_.oxide.a << ", groove " << p_.groove_nm << " nm, coherence "
-         << 0.376e-3f / p_.across.coherence_per_nm << " by "
+         << 0.376e-3f / p_.across.coherence_per_nm << " and "
          << 0.376e-3f / p_.along.coherence_per_nm << " um, roughness sigma " << p_.roughness
          << ", variation " << p_.variation << ", metal " << p_.metal << " (n " << p_.custom_n[1]
          << ", k " << p_.custom_k[1] << "), illuminant " << p_.illuminant;
@@ -238,8 +256,8 @@ template<typename Number> PhysicalParams physical_params_of(Random &random, cons
   const bool cross = random() % 3 == 0;
   const float cross_nm = cross ? number(200.0f, 200000.0f) : 0.0f;
   const Metal metal = Metal(random() % (metal_custom + 1));
-  /* The chi-squared test has bins for both axes if wires cross; they cannot be very fine. */
-  const float coherence_most_um = cross ? 20.0f : 100.0f;
+  /* The chi-squared test has fine bins along both axes if wires cross. */
+  const float coherence_most_um = cross ? 8.0f : 100.0f;
   PhysicalParams p = physical_params(
       physical_lattice(
           spacing_nm, spacing_nm * number(0.02f, 0.98f), number(2.0f, coherence_most_um)),
@@ -270,6 +288,34 @@ inline PhysicalParams random_physical_params(Random &random)
   return physical_params_of(random, [&random](const float low, const float high) {
     return log_uniform(random, low, high);
   });
+}
+
+/* Next to perfect metals, deep grooves and thick oxide, half of the area ridge, any width of the
+ * lobes, a single wavelength. */
+inline PhysicalParams bright_physical_params(Random &random)
+{
+  const bool thick = random() % 2;
+  const float spacing_nm = log_uniform(random, 300.0f, 5000.0f);
+  const float cross_nm = random() % 4 == 0 ? log_uniform(random, 300.0f, 5000.0f) : 0.0f;
+  PhysicalParams p = physical_params(
+      physical_lattice(spacing_nm,
+                       spacing_nm * (random() % 2 ? 0.5f : uniform(random)),
+                       log_uniform(random, 0.5f, 30.0f)),
+      physical_lattice(cross_nm,
+                       cross_nm * (random() % 2 ? 0.5f : uniform(random)),
+                       log_uniform(random, 0.5f, 30.0f)),
+      random() % 2 ? 0.0f : log_uniform(random, 50.0f, thick ? 10000.0f : 1000.0f),
+      log_uniform(random, 50.0f, thick ? 10000.0f : 600.0f),
+      random() % 2 ? 0.0f : log_uniform(random, 0.05f, 0.6f),
+      random() % 2 ? 0.0f : uniform(random, 0.0f, 0.2f),
+      oxide_custom,
+      uniform(random, 1.0f, 3.0f),
+      metal_custom,
+      illuminant_sodium);
+  const float n = random() % 2 ? 0.02f : log_uniform(random, 0.02f, 1.0f);
+  const float k = random() % 2 ? 15.0f : log_uniform(random, 2.0f, 15.0f);
+  physical_set_custom_metal(p, n, n, n, k, k, k);
+  return p;
 }
 
 /* ---- All of them ---- */
@@ -317,6 +363,7 @@ inline const std::vector<Model> models = {
      false,
      56,
      [](Random &random) { return std::make_unique<Cs348bSurface>(random_params(random)); },
+     {},
      any_cs348b},
     {"Physical",
      true,
@@ -324,6 +371,9 @@ inline const std::vector<Model> models = {
      200,
      [](Random &random) {
        return std::make_unique<PhysicalSurface>(random_physical_params(random));
+     },
+     [](Random &random) {
+       return std::make_unique<PhysicalSurface>(bright_physical_params(random));
      },
      any_physical},
 };

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "icwafer/reference.h"
 #include "support.h"
 
@@ -225,74 +223,5 @@ TEST(OrderLobes, RegimesMeet)
     }
   }
 }
-
-/* ---- Robustness ---- */
-
-static float any_value(Random &random)
-{
-  static const float extremes[] = {0.0f,
-                                   -0.0f,
-                                   1e9f,
-                                   -1e9f,
-                                   1e-9f,
-                                   1.0f,
-                                   -1.0f,
-                                   1e30f,
-                                   std::numeric_limits<float>::infinity(),
-                                   -std::numeric_limits<float>::infinity(),
-                                   std::numeric_limits<float>::quiet_NaN()};
-  const unsigned choice = random() % 32;
-  return choice < std::size(extremes) ? extremes[choice] : log_uniform(random, 1e-4f, 1e5f);
-}
-
-static LocalDirection any_direction(Random &random)
-{
-  switch (random() % 8) {
-    case 0:
-      return {0.0f, 0.0f, 1.0f};
-    case 1:
-      return {1.0f, 0.0f, 1e-7f};
-    case 2:
-      return {0.0f, -1.0f, 1e-7f};
-    default:
-      return random_direction(random);
-  }
-}
-
-/* 10^7 evaluations, samples and densities at any input: finite and never negative. Split so that
- * test runners can share the work. */
-class AnyInput : public testing::TestWithParam<int> {};
-
-TEST_P(AnyInput, IsFiniteAndNotNegative)
-{
-  Random random(1000 + GetParam());
-  for (int k = 0; k < 1250000; k++) {
-    const Cs348bParams p = cs348b_params(any_value(random),
-                                         any_value(random),
-                                         any_value(random),
-                                         any_value(random),
-                                         any_value(random),
-                                         any_value(random),
-                                         int(random() % 8));
-    const LocalDirection o = any_direction(random);
-    LocalDirection i = any_direction(random);
-    const float total = cs348b_total_power(p, o.nu);
-    ASSERT_TRUE(std::isfinite(total) && total > 0.0f);
-    if (k % 2 == 0) {
-      i = cs348b_sample(p, total, o, uniform(random), uniform(random));
-      ASSERT_LE(i.nu * i.nu + i.tau * i.tau, 1.0001f);
-      ASSERT_TRUE(std::isfinite(i.n));
-    }
-    const float pdf = cs348b_pdf(p, total, o, i);
-    ASSERT_TRUE(std::isfinite(pdf) && pdf >= 0.0f);
-    const Rgb f = cs348b_eval(p, grating_geometry(i, o), sensitivity);
-    ASSERT_TRUE(std::isfinite(f.r) && std::isfinite(f.g) && std::isfinite(f.b))
-        << p.spacing_nm << " " << p.width_nm << " " << p.optical_thickness_nm << " "
-        << p.lobe_width << " " << p.anisotropy << " " << p.effects;
-    ASSERT_TRUE(f.r >= 0.0f && f.g >= 0.0f && f.b >= 0.0f);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(TenMillion, AnyInput, testing::Range(0, 8));
 
 }  // namespace icwafer::test

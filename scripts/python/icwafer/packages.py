@@ -20,8 +20,10 @@ _log = logging.getLogger(__name__)
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
     "core": (
+        "clang",
         "libbenchmark-dev",
         "libboost-dev",
+        "libclang-rt-14-dev",
         "libgmock-dev",
         "libgtest-dev",
         "python3-pyopencolorio",
