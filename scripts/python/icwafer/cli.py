@@ -21,6 +21,7 @@ from icwafer import build, doctor, layout_command, packages, paths, render, sour
 from icwafer.compare import command as compare_command
 from icwafer.errors import IcwaferError
 from icwafer.report import command as report_command
+from icwafer.study import command as study_command
 
 
 class _UsageError(Exception):
@@ -127,6 +128,7 @@ def _parser() -> _Parser:
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"
     )
     pictures.set_defaults(run=_pictures)
+    study_command.register(add)
     source_command = add("source", "unpack the host's source and apply the edits")
     source_command.add_argument(
         "--from", dest="origin", metavar="DIR", help="tree to copy instead"

@@ -17,7 +17,8 @@ _log = logging.getLogger(__name__)
 #: Packages by purpose. Every build needs "base"; "images" is what reads, compares and labels
 #: pictures, also on a machine that builds nothing; "core" are the C++ tests of the material, "host"
 #: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and draws
-#: chips and wafers, "import" reads real chips, "test" are the tests that start Blender or a browser.
+#: chips and wafers, "import" reads real chips, "test" are the tests that start Blender, a
+#: browser or Slurm.
 PURPOSES: dict[str, tuple[str, ...]] = {
     "base": ("cmake", "g++", "ninja-build"),
     "images": (
@@ -63,7 +64,11 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "chromium",
         "chromium-driver",
         "libgl1-mesa-dri",
+        "munge",
         "python3-selenium",
+        "slurm-client",
+        "slurmctld",
+        "slurmd",
         "xauth",
         "xvfb",
     ),
