@@ -656,7 +656,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
     /* Lobe and lamp as Gaussians, whose product is narrower than either; of a thick film the
      * second pass counts, too. */
     return two_pi / (sqrtf(square(lobe_per_nm) + square(0.7f * lamp_per_nm)) +
-                     larger(0.7f * film_per_nm, 1.2f * film_per_nm - 0.05f));
+                     larger(0.7f * film_per_nm, 1.4f * film_per_nm - 0.07f));
   };
   const float blurred_orders = sqrtf(lobe_variance(p, nodes.first, first_nm, q)) * spacing_nm /
                                last_nm;
