@@ -36,7 +36,7 @@ constexpr float sodium_mean_nm = 589.29f;
  * mean, in every channel. A trapezoid rule with a step below 2 pi / bandwidth integrates them. */
 ICW_DEVICE float illuminant_bandwidth_per_nm(const Illuminant illuminant)
 {
-  constexpr float per_nm[illuminant_count] = {0.51f, 0.51f, 0.43f, 1.08f, 1.17f, 0.51f, 1.84f};
+  constexpr float per_nm[illuminant_count] = {0.51f, 0.51f, 0.43f, 1.08f, 1.42f, 0.51f, 2.28f};
   return per_nm[illuminant];
 }
 

@@ -653,7 +653,10 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
            sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q));
   };
   const auto step_nm = [&](const float lobe_per_nm) {
-    return two_pi / (larger(lobe_per_nm, 0.7f * lamp_per_nm) + 0.7f * film_per_nm);
+    /* Lobe and lamp as Gaussians, whose product is narrower than either; of a thick film the
+     * second pass counts, too. */
+    return two_pi / (sqrtf(square(lobe_per_nm) + square(0.7f * lamp_per_nm)) +
+                     larger(0.7f * film_per_nm, 1.4f * film_per_nm - 0.07f));
   };
   const float blurred_orders = sqrtf(lobe_variance(p, nodes.first, first_nm, q)) * spacing_nm /
                                last_nm;

@@ -257,7 +257,7 @@ template<typename Number> PhysicalParams physical_params_of(Random &random, cons
   const float cross_nm = cross ? number(200.0f, 200000.0f) : 0.0f;
   const Metal metal = Metal(random() % (metal_custom + 1));
   /* The chi-squared test has fine bins along both axes if wires cross. */
-  const float coherence_most_um = cross ? 8.0f : 100.0f;
+  const float coherence_most_um = cross ? 6.0f : 100.0f;
   PhysicalParams p = physical_params(
       physical_lattice(
           spacing_nm, spacing_nm * number(0.02f, 0.98f), number(2.0f, coherence_most_um)),
