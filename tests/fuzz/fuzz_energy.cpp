@@ -59,7 +59,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *bytes, const size_t size)
   }
   const PhysicalView view = physical_view(p, o, fuzz::tables);
 
-  /* Among many inputs a few seem to, by chance; not four times as finely sampled, and again. */
+  /* Among many inputs a few seem to, by chance: those are sampled more finely, twice. */
   test::Random random(1);
   FUZZ_EXPECT(!(seems_to_gain(p, view, o, 24, random) && seems_to_gain(p, view, o, 96, random) &&
                 seems_to_gain(p, view, o, 384, random)));
