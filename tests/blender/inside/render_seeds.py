@@ -25,9 +25,11 @@ from icwafer.pictures import PICTURES  # noqa: E402
 
 
 def build(spacing_scale: float) -> None:
-    picture = dataclasses.replace(
-        PICTURES[given["picture"]], size=tuple(given["size"]), samples=given["samples"]
+    picture = PICTURES[given["picture"]]
+    render = dataclasses.replace(
+        picture.render, size=tuple(given["size"]), samples=given["samples"]
     )
+    picture = dataclasses.replace(picture, render=render)
     scene = blender_scene.build(picture)
     scene.render.use_persistent_data = True  # the die is the same from seed to seed
     spacing = bpy.data.meshes["Die"].attributes["ic_spacing_nm"].data
