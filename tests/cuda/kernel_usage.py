@@ -31,8 +31,9 @@ SHADE_SURFACE = Path(__file__).with_name("shade_surface.cu")
 ALL_KERNELS = Path("kernel/device/cuda/kernel.cu")
 #: An architecture that Cycles 3.4 knows and that nvcc 11.1 and later can compile for.
 ARCHITECTURE = "sm_86"
-#: How much a kernel's stack and its spills may grow, in bytes.
-ALLOWED_STACK, ALLOWED_SPILLS = 64, 64
+#: How much a kernel's stack and its spills may grow, in bytes; registers may not grow at all. The
+#: PHYSICAL model takes 512 of stack, 6 %.
+ALLOWED_STACK, ALLOWED_SPILLS = 640, 64
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from icwafer.chips.document import (  # noqa: E402
     read_layout,
     write_layout,
 )
-from icwafer.chips.lines import line_of  # noqa: E402
+from icwafer.toml_lines import line_of  # noqa: E402
 from icwafer.chips.model import BlockTable, DieSpec, Group, Kind, Layout  # noqa: E402
 from icwafer.chips.presets import PRESETS  # noqa: E402
 from icwafer.chips.spread import Clustered, Normal, Uniform  # noqa: E402

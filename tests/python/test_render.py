@@ -23,7 +23,8 @@ class RenderTest(CommandCase):
     def setUp(self) -> None:
         super().setUp()
         write(paths.BLENDER, BLENDER.replace("$2.count", f"{self.folder}/count"), 0o755)
-        self.replace(render, INPUTS=(write(self.folder / "pictures.py", ""),))
+        self.script = write(self.folder / "pictures.py", "")
+        self.replace(render, imported=lambda _: [self.script])
         self.base = self.folder / "out" / "demo" / "wafer"
 
     def times_rendered(self) -> int:
@@ -39,7 +40,7 @@ class RenderTest(CommandCase):
         render.render("full", self.base)
         self.assertEqual(self.times_rendered(), 1)
         later = self.base.with_suffix(".png").stat().st_mtime + 10
-        os.utime(render.INPUTS[0], (later, later))
+        os.utime(self.script, (later, later))
         render.render("full", self.base)
         self.assertEqual(self.times_rendered(), 2)
 

@@ -62,13 +62,13 @@ def build(target: str, options: Mapping[str, str] | None = None) -> None:
     """Brings a target up to date: packages, source, edits, configuration, compilation, install."""
     options = options or {}
     if target == "core":
-        packages.install("base", "core", "layout")
+        packages.install("base", "images", "core", "layout")
         _expect_space(target, paths.BUILD / "core" / "build.ninja")
         _configure(target, options)
         _compile(target, paths.BUILD / "core", {})
         return
     full = is_full(options)
-    packages.install("base", "host", *(["full"] if full else []))
+    packages.install("base", "images", "host", *(["full"] if full else []))
     program = paths.CYCLES if target == "cycles" else paths.BLENDER
     _expect_space(target, program)
     origin = options.get("ICWAFER_BLENDER_SOURCE", cached_option("ICWAFER_BLENDER_SOURCE"))

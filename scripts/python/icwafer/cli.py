@@ -2,7 +2,7 @@
 """The command line: thin over the functions of the package.
 
 Exit status: 0 if all went well, 1 for an error (one line on stderr), 2 for a wrong command line,
-130 after Ctrl-C; `test` passes on ctest's.
+130 after Ctrl-C; `test` passes on ctest's, `compare` has its own (see its --help).
 """
 
 from __future__ import annotations
@@ -18,7 +18,10 @@ from pathlib import Path
 from typing import NoReturn
 
 from icwafer import build, doctor, layout_command, packages, paths, render, source
+from icwafer.compare import command as compare_command
 from icwafer.errors import IcwaferError
+from icwafer.report import command as report_command
+from icwafer.study import command as study_command
 
 
 class _UsageError(Exception):
@@ -71,7 +74,7 @@ def _doctor(_: argparse.Namespace) -> int:
 
 def _test(arguments: list[str]) -> int:
     # At once, so that root is asked for once.
-    packages.install("base", "core", "host", "layout", "import", "test")
+    packages.install("base", "images", "core", "host", "layout", "import", "test")
     build.build("core")
     build.build("blender")
     return subprocess.run(
@@ -125,11 +128,14 @@ def _parser() -> _Parser:
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"
     )
     pictures.set_defaults(run=_pictures)
+    study_command.register(add)
     source_command = add("source", "unpack the host's source and apply the edits")
     source_command.add_argument(
         "--from", dest="origin", metavar="DIR", help="tree to copy instead"
     )
     source_command.set_defaults(run=_source)
+    compare_command.register(add)
+    report_command.register(add)
     return parser
 
 
@@ -154,7 +160,9 @@ def main(argv: list[str]) -> int:
         message, status = "interrupted; the same command goes on where it stopped", 130
     except _UsageError as error:
         message, status = str(error), 2
-    except (IcwaferError, source.host_edits.HostEditError) as error:
+    except IcwaferError as error:
+        message, status = str(error), error.status
+    except source.host_edits.HostEditError as error:
         message, status = str(error), 1
     except OSError as error:
         mend = "make room" if error.errno in (errno.ENOSPC, errno.EDQUOT) else "mend this"

@@ -132,7 +132,7 @@ def check_start() -> Finding:
 
 def checks() -> list[Callable[[], Finding]]:
     """All checks, in the order in which things depend on each other."""
-    purposes = ["base", "core", "host", *(["full"] if build.is_full({}) else [])]
+    purposes = ["base", "images", "core", "host", *(["full"] if build.is_full({}) else [])]
     bin_folder = paths.HOST_BINARY / "bin"
     return [
         check_system,

@@ -14,11 +14,19 @@ from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
 
-#: Packages by purpose. Every build needs "base"; "core" are the C++ tests of the material, "host"
-#: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and
-#: draws chips and wafers, "import" reads real chips, "test" are the tests that start Blender.
+#: Packages by purpose. Every build needs "base"; "images" is what reads, compares and labels
+#: pictures, also on a machine that builds nothing; "core" are the C++ tests of the material, "host"
+#: is Blender, "full" what Debian's package of Blender has beyond that, "layout" makes and draws
+#: chips and wafers, "import" reads real chips, "test" are the tests that start Blender, a
+#: browser or Slurm.
 PURPOSES: dict[str, tuple[str, ...]] = {
-    "base": ("cmake", "g++", "ninja-build", "python3-numpy", "python3-openimageio"),
+    "base": ("cmake", "g++", "ninja-build"),
+    "images": (
+        "fonts-dejavu-core",
+        "python3-numpy",
+        "python3-openimageio",
+        "python3-pyopencolorio",
+    ),
     "core": (
         "clang",
         "libbenchmark-dev",
@@ -26,7 +34,6 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "libclang-rt-14-dev",
         "libgmock-dev",
         "libgtest-dev",
-        "python3-pyopencolorio",
     ),
     "host": tuple(
         """
@@ -52,7 +59,19 @@ PURPOSES: dict[str, tuple[str, ...]] = {
     ),
     "layout": ("python3-matplotlib",),
     "import": ("klayout",),
-    "test": ("blender", "libgl1-mesa-dri", "xauth", "xvfb"),
+    "test": (
+        "blender",
+        "chromium",
+        "chromium-driver",
+        "libgl1-mesa-dri",
+        "munge",
+        "python3-selenium",
+        "slurm-client",
+        "slurmctld",
+        "slurmd",
+        "xauth",
+        "xvfb",
+    ),
 }
 
 

@@ -65,6 +65,7 @@ class Progress:
 
     title: str
     stream: TextIO = field(default_factory=lambda: sys.stdout)
+    left: str = ""  # how long it will take, if that is known
     _begin: float = field(default_factory=time.monotonic)
     _written: float = field(default_factory=time.monotonic)
     _count: str = ""
@@ -82,7 +83,8 @@ class Progress:
         if not self.stream.isatty() and now - self._written < SPARSE_S:
             return
         self._written = now
-        self._write(f"{self.title} ...{self._count} {duration(now - self._begin)}", False)
+        left = f", {self.left} left" if self.left else ""
+        self._write(f"{self.title} ...{self._count} {duration(now - self._begin)}{left}", False)
 
     def end(self, verdict: str = "done") -> None:
         self._write(f"{self.title}: {verdict} in {duration(time.monotonic() - self._begin)}", True)

@@ -8,15 +8,12 @@ import shutil
 from pathlib import Path
 
 from icwafer import paths, progress
+from icwafer.dependencies import imported
 from icwafer.errors import IcwaferError
 
 _log = logging.getLogger(__name__)
 
 SCRIPT = Path(__file__).with_name("render_picture.py")
-#: Files of the package that a picture depends on, besides Blender itself.
-INPUTS = tuple(
-    SCRIPT.with_name(name) for name in ("blender_scene.py", "pictures.py", SCRIPT.name)
-) + tuple((SCRIPT.parent / "chips").rglob("*.py"))
 
 
 def expect_blender() -> None:
@@ -64,5 +61,5 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
 def _up_to_date(products: tuple[Path, ...]) -> bool:
     if not all(product.is_file() for product in products):
         return False
-    newest = max(path.stat().st_mtime for path in (paths.BLENDER, *INPUTS) if path.exists())
+    newest = max(path.stat().st_mtime for path in (paths.BLENDER, *imported(SCRIPT)) if path.exists())
     return min(product.stat().st_mtime for product in products) >= newest

@@ -10,18 +10,14 @@ import argparse
 import dataclasses
 import logging
 import re
-import shutil
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from icwafer.errors import IcwaferError  # noqa: E402
 from icwafer.pictures import PICTURES, Picture  # noqa: E402
-
-if TYPE_CHECKING:
-    import bpy
 
 logger = logging.getLogger("icwafer")
 
@@ -63,8 +59,9 @@ def chosen_picture(arguments: argparse.Namespace) -> Picture:
         picture = dataclasses.replace(
             picture, die=dataclasses.replace(picture.die, seed=arguments.seed)
         )
-    overrides = {key: getattr(arguments, key) for key in ("samples", "size")}
-    return dataclasses.replace(picture, **{k: v for k, v in overrides.items() if v})
+    given = {key: getattr(arguments, key) for key in ("samples", "size")}
+    overrides = {key: value for key, value in given.items() if value}
+    return dataclasses.replace(picture, render=dataclasses.replace(picture.render, **overrides))
 
 
 def render(picture: Picture, output: Path) -> None:
@@ -74,7 +71,7 @@ def render(picture: Picture, output: Path) -> None:
     """
     import bpy
 
-    from icwafer import blender_scene
+    from icwafer import blender_image, blender_scene
 
     output = output.resolve()
     scene = blender_scene.build(picture)
@@ -82,7 +79,7 @@ def render(picture: Picture, output: Path) -> None:
         output.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise IcwaferError(f"cannot make folder {output.parent}: {error.strerror}") from error
-    _expect_space(output.parent, picture)
+    blender_image.expect_space(output.parent, picture.render.size)
     bpy.ops.render.render()
     # Written beside and renamed, so that no half of a picture is ever left.
     parts = {
@@ -91,7 +88,7 @@ def render(picture: Picture, output: Path) -> None:
     }
     try:
         for part in parts.values():
-            _save(bpy.data.images["Render Result"], scene, part)
+            blender_image.save(scene, part)
         for path, part in parts.items():
             part.replace(path)
             logger.info("wrote %s", path)
@@ -101,28 +98,6 @@ def render(picture: Picture, output: Path) -> None:
     finally:
         for part in parts.values():
             part.unlink(missing_ok=True)
-
-
-def _expect_space(folder: Path, picture: Picture) -> None:
-    """Raises IcwaferError unless both files fit: Blender does not notice a cut-off EXR."""
-    needed = 10 * picture.size[0] * picture.size[1] + 100_000  # 6 + 3 bytes a pixel and headers
-    free = shutil.disk_usage(folder).free
-    if free < needed:
-        raise IcwaferError(
-            f"disk full: the picture needs {needed // 1000} kB in {folder}, {free // 1000} kB are "
-            "free: free some space or choose another folder"
-        )
-
-
-def _save(result: bpy.types.Image, scene: bpy.types.Scene, path: Path) -> None:
-    settings = scene.render.image_settings
-    if path.suffix == ".exr":
-        settings.file_format, settings.color_depth = "OPEN_EXR", "16"
-    else:
-        settings.file_format, settings.color_depth = "PNG", "8"
-    settings.color_mode = "RGB"
-    settings.compression = 100
-    result.save_render(str(path), scene=scene)
 
 
 def main(arguments: list[str]) -> int:

@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from icwafer.chips.blocks import block_problems, overlap_problems
-from icwafer.chips.lines import FieldPath
 from icwafer.chips.model import MAX_BLOCKS, MAX_DIES, DieSpec, Group, Layout, size_nm
 from icwafer.chips.outline import MARKS
 from icwafer.chips.placement import RETICLE_MM, reticle_field, test_field_dies_mm
@@ -22,6 +21,7 @@ from icwafer.chips.spread import Clustered, Spread, Uniform
 from icwafer.chips.suggest import unknown
 from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
+from icwafer.toml_lines import FieldPath, key_name
 
 
 @dataclass(frozen=True)
@@ -30,14 +30,6 @@ class Problem:
 
     path: FieldPath
     text: str
-
-
-def spelled(path: FieldPath) -> str:
-    """A path as a message says it, counting from 1: `dies[1].groups[3].width_nm`."""
-    words = ""
-    for step in path:
-        words += f"[{step + 1}]" if isinstance(step, int) else f".{step}" if words else step
-    return words
 
 
 def check_layout(layout: Layout) -> None:
@@ -66,7 +58,7 @@ def problems(layout: Layout) -> Iterator[Problem]:
 
 def _raise_first(found: Iterator[Problem]) -> None:
     for problem in found:
-        raise IcwaferError(f"{spelled(problem.path)}: {problem.text}")
+        raise IcwaferError(f"{key_name(problem.path)}: {problem.text}")
 
 
 def _die_problems(spec: DieSpec, path: FieldPath) -> Iterator[Problem]:

@@ -21,13 +21,13 @@ import re
 import tomllib
 from pathlib import Path
 
-from icwafer.chips.check import check_layout, problems, spelled
-from icwafer.chips.lines import line_of
+from icwafer.chips.check import check_layout, problems
 from icwafer.chips.model import Layout
 from icwafer.chips.reading import Unreadable, layout_of
 from icwafer.chips.writing import lines_of_layout
 from icwafer.errors import IcwaferError
 from icwafer.files import replacing
+from icwafer.toml_lines import key_name, line_of
 
 FORMAT = "icwafer-layout"
 VERSION = 1
@@ -73,7 +73,7 @@ def parse_layout(text: str, name: str) -> Layout:
         problem = error.problem
     if problem:
         line = line_of(text, problem.path)
-        raise IcwaferError(f"{name}:{line}: {spelled(problem.path)}: {problem.text}")
+        raise IcwaferError(f"{name}:{line}: {key_name(problem.path)}: {problem.text}")
     return layout
 
 

@@ -12,11 +12,11 @@ import numpy as np
 
 from icwafer.chips import packing
 from icwafer.chips.check import Problem, group_problems
-from icwafer.chips.lines import FieldPath
 from icwafer.chips.model import BlockTable, DieSpec, Group, Kind, Layout, kind_names
 from icwafer.chips.rules import rule_of
 from icwafer.chips.spread import Clustered, Normal, Spread, Uniform
 from icwafer.chips.suggest import unknown
+from icwafer.toml_lines import FieldPath
 
 
 class Unreadable(Exception):

@@ -14,12 +14,13 @@ import tomllib
 from collections.abc import Iterable
 from typing import Any
 
-from icwafer.chips.check import problems, spelled
+from icwafer.chips.check import problems
 from icwafer.chips.document import layout_text
 from icwafer.chips.model import DieSpec, Layout
 from icwafer.chips.reading import Unreadable, layout_of
 from icwafer.chips.suggest import unknown
 from icwafer.errors import IcwaferError
+from icwafer.toml_lines import key_name
 
 _STEP = re.compile(r"(\w+)(?:\[([^\]]+)\])?")
 
@@ -42,7 +43,7 @@ def changed(layout: Layout, settings: Iterable[str]) -> Layout:
     except Unreadable as error:
         problem = error.problem
     if problem:
-        raise IcwaferError(f"{spelled(problem.path)}: {problem.text}")
+        raise IcwaferError(f"{key_name(problem.path)}: {problem.text}")
     return result
 
 

@@ -28,11 +28,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from icwafer.chips.check import spelled
-from icwafer.chips.lines import line_of
 from icwafer.chips.rules import rule_of, ruled
 from icwafer.chips.suggest import unknown
 from icwafer.errors import IcwaferError
+from icwafer.toml_lines import key_name, line_of
 
 FORMAT = "icwafer-process"
 VERSION = 1
@@ -130,7 +129,7 @@ def read_process(name: str) -> Process:
         return _process(table)
     except _Wrong as wrong:
         line = line_of(text, wrong.path)
-        place = f"{spelled(wrong.path)}: " if wrong.path else ""
+        place = f"{key_name(wrong.path)}: " if wrong.path else ""
         raise IcwaferError(f"{path}:{line}: {place}{wrong.text}") from None
 
 
