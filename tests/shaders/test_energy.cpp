@@ -90,7 +90,7 @@ TEST_P(Furnace, NoMoreOutThanIn)
                              << o.nu << " " << o.tau;
     brightest = std::max(brightest, a.mean);
   }
-  /* The bound is not kept by being dark. */
+  /* The bound is not kept by being dark; wide lobes lose light below the horizon. */
   EXPECT_GT(brightest, 0.9);
 }
 
