@@ -45,7 +45,7 @@ SCENE = """<cycles>
 <background><background name="world" strength="0"/>
   <connect from="world background" to="output surface"/></background>
 <shader name="wafer">
-  <ic_wafer_bsdf name="chip" specular="0" {switches}/>
+  <ic_wafer_bsdf name="chip" model="CS348B" specular="0" {switches}/>
   <connect from="chip BSDF" to="output surface"/>
 </shader>
 <shader name="lamp"><emission name="glow"/>
