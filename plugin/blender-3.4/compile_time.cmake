@@ -81,7 +81,7 @@ set(ICWAFER_UNITY_EXCEPT
 )
 string(CONCAT ICWAFER_UNITY_EXCEPT_PATTERN
   "\\.c$|/python/.*\\.cpp$|/AUD_[A-Za-z]*\\.cpp$|/deg_eval_runtime_backup|/geometry_component_"
-  "|engines/(compositor|image|eevee|eevee_next)/|(^|/)hip/"
+  "|engines/(compositor|image|eevee|eevee_next)/|(^|/)(cuda|hip)/"
 )
 
 function(icwafer_use_unity)
