@@ -37,10 +37,11 @@ STANDARD_OPTIONS = (
 # Parts of the output that are another in each run or each installation.
 VARYING = (
     (re.compile(r" in \d+\.\d+s"), ""),
+    # First of all: a name at random may look like anything below.
+    (re.compile(r"(/\S*)?/tmp[a-z0-9_]{8}\b"), "<temporary folder>"),
     (re.compile(r"0x[0-9a-f]+"), "<address>"),
     # Where the compiler found Blender's source.
     (re.compile(r"\S*\bsource/blender/"), "source/blender/"),
-    (re.compile(r"(/\S*)?/tmp[a-z0-9_]{8}\b"), "<temporary folder>"),
 )
 
 # The node itself is what the built Blender has more: its RNA paths, and only these.
