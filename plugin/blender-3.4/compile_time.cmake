@@ -107,10 +107,8 @@ endfunction()
 # Less optimisation for the interface, which waits for people, and for sources that are little more
 # than OpenVDB's templates, of which the compiler makes more than of all else.
 set(ICWAFER_LIGHT_TARGETS
-  "^(bf_blenloader|bf_depsgraph|bf_editor_.*|bf_freestyle|bf_nodes|bf_nodes_shader|bf_python.*|bf_rna"
-  ")$"
+  "^(bf_blenloader|bf_depsgraph|bf_editor_.*|bf_freestyle|bf_nodes|bf_nodes_shader|bf_python.*|bf_rna)$"
 )
-string(CONCAT ICWAFER_LIGHT_TARGETS ${ICWAFER_LIGHT_TARGETS})
 set(ICWAFER_LIGHT_SOURCES
   intern/cycles/scene:volume.cpp:cycles_scene
   source/blender/blenkernel:intern/volume.cc:bf_blenkernel
