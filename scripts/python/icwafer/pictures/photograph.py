@@ -31,10 +31,10 @@ PHOTOGRAPH = Picture(
         Light("CARD", (-190.0, 390.0, 380.0), 6e3, (0.1, 0.25, 1.0), size_mm=(300.0, 160.0), fade=0.6),
     ),
     Camera(
-        position_mm=(4.0, -319.8, 204.8),
-        target_mm=(-37.5, -23.4, 8.3),
+        position_mm=(4.01, -319.82, 204.83),
+        target_mm=(-37.65, -23.53, 8.25),
         lens_mm=93.16,
-        roll_deg=2.1,
+        roll_deg=2.136,
         f_stop=45.0,
     ),
     {

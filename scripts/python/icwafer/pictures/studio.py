@@ -20,7 +20,7 @@ _METAL: dict[str, NodeValue] = {
     "Wire Length": 1.2,
     "Roughness": 0.1,
 }
-_FULL = Render((1920, 1080), 128, noise=0.02, bounces=1)
+_FULL = Render((1920, 1080), 64, noise=0.02, bounces=1)
 
 WAFER = Picture(
     "A 300 mm wafer of memories in a studio.",
@@ -32,7 +32,7 @@ WAFER = Picture(
     Camera((60.0, -520.0, 400.0), (0.0, -12.0, 0.0), lens_mm=58.0, f_stop=60.0),
     _METAL,
     wafer="dram",
-    table=Table(1400.0),
+    table=Table(1400.0, (0.045, 0.045, 0.05)),
     view=View(exposure=0.5),
     render=_FULL,
 )
