@@ -28,7 +28,7 @@ PHOTOGRAPH = Picture(
         # Low at the left: only the rounded rim sends its light on to the camera.
         Light("CARD", (-420.0, 60.0, 110.0), 5e5, size_mm=(500.0, 120.0)),
         # What the bare silicon of the near rim mirrors: a dim window.
-        Light("CARD", (-190.0, 390.0, 380.0), 6e3, (0.1, 0.25, 1.0), size_mm=(300.0, 160.0), fade=0.6),
+        Light("CARD", (-190.0, 390.0, 380.0), 2e3, (0.1, 0.25, 1.0), size_mm=(300.0, 160.0), fade=0.6),
     ),
     Camera(
         position_mm=(4.01, -319.82, 204.83),
