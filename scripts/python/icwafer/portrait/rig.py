@@ -25,6 +25,8 @@ _MIDDLE_NM = 550.0
 _USUAL_U = 0.55
 #: Sine of the largest angle between the surface's normal and a lamp.
 _LOWEST_LAMP = 0.94
+#: Wavelengths that a place of the picture sees at once in the first order, by the lamp's width.
+_BAND_NM = 180.0
 #: Lamps stand this many sizes away.
 _DISTANCE = 3.0
 
@@ -128,7 +130,8 @@ def _key(
     """A softbox that shows the wires of one direction."""
     direction = direction_to_lamp(to_camera, along_wires, spacing_nm)
     distance = _DISTANCE * SIZE_MM
-    return _softbox(direction, along_wires, (1.1 * distance, 0.4 * distance), power_w)
+    across = distance * float(np.clip(_BAND_NM / spacing_nm, 0.05, 0.4))
+    return _softbox(direction, along_wires, (1.1 * distance, across), power_w)
 
 
 def _sheen(to_camera: np.ndarray) -> Light:

@@ -123,5 +123,5 @@ def _box_mesh(
 
 def _add_table(scene: bpy.types.Scene, depth: float) -> None:
     """depth: of the table below the subject's face, relative to `SIZE_MM`."""
-    table = Table(2.2 * SIZE_MM, (0.007, 0.007, 0.008), 0.2, 1.02 * depth * SIZE_MM)
+    table = Table(1.1 * SIZE_MM, (0.02, 0.02, 0.022), 0.06, 1.02 * depth * SIZE_MM)
     scene.collection.objects.link(table_object(table))
