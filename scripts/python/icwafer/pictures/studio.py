@@ -20,7 +20,7 @@ _METAL: dict[str, NodeValue] = {
     "Wire Length": 1.2,
     "Roughness": 0.1,
 }
-_FULL = Render((1920, 1080), 64, noise=0.02, bounces=1)
+_FULL = Render((1920, 1080), 48, noise=0.02, bounces=1)
 
 WAFER = Picture(
     "A 300 mm wafer of memories in a studio.",
@@ -68,7 +68,7 @@ DIE = Picture(
     Camera((6.0, -21.0, 14.0), (0.2, -0.6, 0.0), lens_mm=75.0, f_stop=60.0),
     _METAL,
     table=Table(80.0),
-    view=View(exposure=0.5),
+    view=View(exposure=0.2),
     render=_FULL,
 )
 
