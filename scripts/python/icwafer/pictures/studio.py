@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Wafers and a die in a studio, with the model PHYSICAL.
 
-Softboxes behind and above: the one behind is where a wafer that lies flat mirrors it to the camera,
-so it gives the white band, and to wires that run away from the camera their colours at its sides;
-the one above gives wires that run across the picture their first order.
+Softboxes behind and above. The one behind is where a wafer that lies flat mirrors it to the
+camera, so it gives the white band; the one above gives wires that run across the picture their first order.
 """
 
 from __future__ import annotations
