@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Camera and lamps of a portrait, placed by the grating law.
 
-Light of wavelength lambda leaves a grating of spacing d in order m where the directions to lamp and
-eye add up to u = m lambda / d across the wires and to v = 0 along them. So for wires that run along
-x, and for those that run along y, there is a softbox where the middle of the picture sees the
-middle of an order: long in the direction of the wires, narrow across, so that the bands are soft but
-do not all become white.
+Light of wavelength lambda leaves a grating of spacing d in order m where the directions to lamp
+and eye add up to u = m lambda / d across the wires and to v = 0 along them. So for wires that run
+along x, and for those that run along y, there is a softbox where the middle of the picture sees
+the middle of an order: long in the direction of the wires, narrow across, so that the bands are
+soft but do not all become white.
 """
 
 from __future__ import annotations
@@ -23,14 +23,21 @@ SIZE_MM = 10.0
 #: The middle of the picture sees this wavelength, in the order whose u is nearest to `_USUAL_U`.
 _MIDDLE_NM = 550.0
 _USUAL_U = 0.55
+#: Sine of the largest angle between the surface's normal and a lamp.
+_LOWEST_LAMP = 0.94
+#: Wavelengths that a place of the picture sees at once in the first order, by the lamp's width.
+_BAND_NM = 180.0
 #: Lamps stand this many sizes away.
 _DISTANCE = 3.0
 
 
 @dataclass(frozen=True)
 class Pose:
-    """How the subject is seen. turn_deg: about its normal. polar_deg: of the camera from the normal.
-    fill: share of the picture's width or height that it takes."""
+    """How the subject is seen.
+
+    turn_deg: about its normal. polar_deg: of the camera from the normal. fill: share of the
+    picture's width or height that it takes.
+    """
 
     turn_deg: float
     polar_deg: float
@@ -106,16 +113,18 @@ def direction_to_lamp(
 ) -> np.ndarray:
     """Where a lamp stands so that the camera sees `_MIDDLE_NM` in the order next to `_USUAL_U`.
 
-    Unit vectors (3,); the surface's normal is z. Of the two sides of the mirror direction it is the
-    one nearer to the normal.
+    Unit vectors (3,); the surface's normal is z. Of the two sides of the mirror direction it is
+    the one nearer to the normal. Where it would have to stand lower than `_LOWEST_LAMP`, the
+    middle of the picture sees a shorter wavelength.
     """
     across = np.cross([0.0, 0.0, 1.0], along_wires)
     order = max(1, round(_USUAL_U * spacing_nm / _MIDDLE_NM))
     u = min(order * _MIDDLE_NM / spacing_nm, 0.8)
     seen = float(to_camera @ across)
     sideways = min((u - seen, -u - seen), key=abs)
-    flat = sideways * across - float(to_camera @ along_wires) * along_wires
-    flat *= min(1.0, 0.94 / max(np.linalg.norm(flat), 1e-9))
+    behind = -float(to_camera @ along_wires)
+    most = math.sqrt(_LOWEST_LAMP**2 - behind**2)
+    flat = float(np.clip(sideways, -most, most)) * across + behind * along_wires
     return flat + [0.0, 0.0, math.sqrt(1.0 - flat @ flat)]
 
 
@@ -125,7 +134,8 @@ def _key(
     """A softbox that shows the wires of one direction."""
     direction = direction_to_lamp(to_camera, along_wires, spacing_nm)
     distance = _DISTANCE * SIZE_MM
-    return _softbox(direction, along_wires, (1.1 * distance, 0.22 * distance), power_w)
+    across = distance * float(np.clip(_BAND_NM / spacing_nm, 0.05, 0.4))
+    return _softbox(direction, along_wires, (1.1 * distance, across), power_w)
 
 
 def _sheen(to_camera: np.ndarray) -> Light:
