@@ -23,16 +23,18 @@ class MESH_OT_ic_die_add(options.ChipOptions, PlacingOptions, bpy.types.Operator
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        from icwafer.chips.die import generate
+        from icwafer.chips.die import generate, main_direction_rad
         from icwafer.chips.presets import PRESETS
         from icwafer.scene.mesh import die_mesh
 
         self.fill_from_preset()
         spec = self.adjusted(PRESETS[self.preset].dies[0])
-        mesh = die_mesh(generate(spec))
+        die = generate(spec)
+        mesh = die_mesh(die)
         mesh.name = "IC Die"
         mesh.materials.append(self.material("IC Die"))
-        self.add(context, mesh, self.scale_for(context, max(spec.width_mm, spec.height_mm)))
+        scale = self.scale_for(context, max(spec.width_mm, spec.height_mm))
+        self.add(context, mesh, scale, main_direction_rad(die))
         return {"FINISHED"}
 
     def draw(self, _context: bpy.types.Context) -> None:

@@ -41,6 +41,12 @@ class PlacingOptions(AddObjectHelper):
         name="True Scale",
         description="As large as in reality, by the scene's unit of length, instead of Size",
     )
+    catch_light: BoolProperty(
+        name="Catch the Light",
+        description="Turn it about its own axis so that the colours of the brightest lamp reach "
+        "the camera",
+        default=True,
+    )
     model: EnumProperty(name="Model", items=_items_of("model"), default=_items_of("model")[0][0])
     metal: EnumProperty(
         name="Metal",
@@ -71,19 +77,24 @@ class PlacingOptions(AddObjectHelper):
         return self.size / longest_mm
 
     def add(
-        self, context: bpy.types.Context, mesh: bpy.types.Mesh, scale: float
-    ) -> bpy.types.Object | None:
+        self, context: bpy.types.Context, mesh: bpy.types.Mesh, scale: float, wires_rad: float
+    ) -> None:
         """Puts a mesh where Blender's own Add operators would, and selects it.
 
-        In edit mode it becomes a part of the mesh that is edited; then there is no new object.
+        wires_rad: direction of most of its wires. In edit mode the mesh becomes a part of the one
+        that is edited, at the angle that was asked for.
         """
+        from icwafer.scene.turn import turn_to_light_rad
+
         if context.mode == "EDIT_MESH":
             mesh.transform(Matrix.Scale(scale, 4))
             object_data_add(context, mesh, operator=self)
-            return None
+            return
         thing = object_data_add(context, mesh, operator=self)
         thing.scale = (scale, scale, scale)
-        return thing
+        if self.catch_light:
+            turn_rad = turn_to_light_rad(context.scene, thing, wires_rad)
+            thing.rotation_euler.rotate_axis("Z", turn_rad)
 
     def draw_look(self, layout: bpy.types.UILayout) -> None:
         """The panel's part on the material."""
@@ -99,6 +110,7 @@ class PlacingOptions(AddObjectHelper):
         row.active = not self.true_scale
         row.prop(self, "size")
         column.prop(self, "true_scale")
+        column.prop(self, "catch_light")
         layout.prop(self, "align")
         layout.prop(self, "location")
         layout.prop(self, "rotation")
