@@ -11,7 +11,7 @@ A further part is a module whose classes are named in `_CLASSES`, or that has `r
 
 import bpy
 
-from . import add_die, add_wafer, menus, options
+from . import add_die, add_wafer, import_chip, menus, options
 
 bl_info = {
     "name": "IC Wafer",
@@ -23,7 +23,12 @@ bl_info = {
 }
 
 #: Classes in the order in which one needs the other, and parts that register more than a class.
-_CLASSES = (options.IC_PG_group, add_die.MESH_OT_ic_die_add, add_wafer.MESH_OT_ic_wafer_add)
+_CLASSES = (
+    options.IC_PG_group,
+    add_die.MESH_OT_ic_die_add,
+    add_wafer.MESH_OT_ic_wafer_add,
+    import_chip.IMPORT_SCENE_OT_ic_chip,
+)
 _PARTS = (menus,)
 
 

@@ -100,6 +100,11 @@ def cut_out(request: Request) -> Iterator[Chip | Cutout]:
 
 
 def _start() -> subprocess.Popen:
+    if not (KLAYOUT / "pymod").is_dir():
+        raise IcwaferError(
+            "KLayout, which reads layout files, is not installed; run as root: "
+            "apt-get install klayout"
+        )
     package = Path(__file__).resolve().parents[2]
     environment = os.environ | {
         "PYTHONPATH": f"{package}:{KLAYOUT / 'pymod'}",
