@@ -11,7 +11,7 @@ A further part is a module whose classes are named in `_CLASSES`, or that has `r
 
 import bpy
 
-from . import add_die, add_wafer, import_chip, menus, options
+from . import add_die, add_wafer, attributes_panel, import_chip, menus, options
 
 bl_info = {
     "name": "IC Wafer",
@@ -28,6 +28,9 @@ _CLASSES = (
     add_die.MESH_OT_ic_die_add,
     add_wafer.MESH_OT_ic_wafer_add,
     import_chip.IMPORT_SCENE_OT_ic_chip,
+    attributes_panel.WM_OT_ic_attribute_copy,
+    attributes_panel.OBJECT_OT_ic_material_add,
+    attributes_panel.DATA_PT_ic_attributes,
 )
 _PARTS = (menus,)
 

@@ -15,6 +15,13 @@ if TYPE_CHECKING:
     from icwafer.chips.model import DieSpec
 
 
+def gap_nm(spec: DieSpec) -> float:
+    """The dark line between blocks; of blocks that are listed it is known where they end."""
+    from icwafer.scene.mesh import GAP_NM
+
+    return GAP_NM if spec.blocks is None else 0.0
+
+
 def add_die(
     operator: PlacingOptions, context: bpy.types.Context, spec: DieSpec, name: str
 ) -> None:
@@ -23,7 +30,7 @@ def add_die(
     from icwafer.scene.mesh import die_mesh
 
     die = generate(spec)
-    mesh = die_mesh(die, ground=True)
+    mesh = die_mesh(die, gap_nm(spec), ground=True)
     mesh.name = name
     materials = operator.parts()
     for material in (materials.blocks, materials.ground):

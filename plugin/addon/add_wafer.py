@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
+from .add_die import gap_nm
 from .busy import progress
 from .errors import reported
 from .options import ChipOptions
@@ -114,7 +115,9 @@ class WaferOptions:
             ),
         )
         with progress(context) as tell:
-            thing = add_wafer(layout, context.collection, self.parts(), name, progress=tell)
+            thing = add_wafer(
+                layout, context.collection, self.parts(), name, gap_nm(dies[0]), tell
+            )
         self.place(context, thing, layout.wafer.diameter_mm, main_direction_rad(generate(dies[0])))
 
     def draw_wafer(self, layout: bpy.types.UILayout) -> None:

@@ -140,7 +140,7 @@ def adjusted_wafer(dies: tuple[DieSpec, ...], wafer: Wafer, change: WaferChange)
         **scaled,
     )
     if reticle_field(dies[0], wafer) is None:  # the dies are larger than they were
-        wafer = dataclasses.replace(wafer, field_columns=0, field_rows=0)
+        wafer = dataclasses.replace(wafer, field_columns=0, field_rows=0, blank_fields=())
     layout = Layout(dies, wafer)
     check_layout(layout)
     if change.test_dies and len(dies) > 1:

@@ -40,6 +40,7 @@ TITLES: dict[str, tuple[str, str]] = {
     "image-sensor": ("Image Sensor", "12 megapixels: the pixels are the grating, both ways"),
     "microcontroller": ("Microcontroller", "Small and simple, half of it flash memory and RAM"),
     "fpga": ("FPGA", "Columns of equal tiles, cut into clock regions"),
+    "bar-memory": ("Two-Bar Memory", "Small, on a wafer as in a photograph: two bars of cells"),
     "power": ("Power Management", "Four switching regulators under thick metal: fine colours"),
     "test-chip": ("Test Chip", "Fields of wires of many spacings, between rows of probe pads"),
     "spacing-uniform": ("Spacing: Uniform", "Any spacing from 800 to 1200 nm: a disordered mess"),
