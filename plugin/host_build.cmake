@@ -110,10 +110,12 @@ if(ICWAFER_BUILD STREQUAL "blender")
       ${package}/chips
       ${package}/layout_import
       ${package}/pictures
+      ${package}/portrait
       ${package}/scene
     DESTINATION ${installed_scripts}/modules/icwafer
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE
+    REGEX "/portrait/render[.]py$" EXCLUDE
   )
 else()
   install(PROGRAMS ${host_binary}/bin/cycles DESTINATION .)
