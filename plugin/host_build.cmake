@@ -89,7 +89,7 @@ if(ICWAFER_BUILD STREQUAL "blender")
   )
   install(DIRECTORY ${host_stage}/share/locale DESTINATION ${version_folder}/datafiles OPTIONAL)
 
-  # The add-on, and of the Python package what it needs: no commands, no build.
+  # The add-on, and of the Python package what it needs: no commands, no build, no plots.
   set(installed_scripts ${version_folder}/scripts)
   set(package ${PROJECT_SOURCE_DIR}/scripts/python/icwafer)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/plugin/addon/
@@ -115,6 +115,8 @@ if(ICWAFER_BUILD STREQUAL "blender")
     DESTINATION ${installed_scripts}/modules/icwafer
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE
+    PATTERN map_picture.py EXCLUDE
+    PATTERN plot.py EXCLUDE
     REGEX "/portrait/render[.]py$" EXCLUDE
   )
 else()
