@@ -110,8 +110,8 @@ def add_wafer() -> None:
     """One with few blocks: a graphics card draws millions at once, software does not."""
     with bpy.context.temp_override(**in_view()):
         bpy.ops.mesh.ic_wafer_add(
-            "INVOKE_DEFAULT", preset="power", diameter_mm="100", block_um=1000.0
-        )
+            "INVOKE_DEFAULT", True, preset="power", diameter_mm="100", block_um=1000.0
+        )  # True: with a step of undo, as from a menu
 
 
 def choose_file() -> None:
