@@ -160,5 +160,6 @@ def _look(finding: Finding | None) -> dict[str, float]:
         "spacing_nm": 1000 * grating.period_um,
         "width_nm": 1000 * grating.duty * grating.period_um,
         "direction_rad": grating.direction_rad,
+        # Wires stand in bundles: around one that is there, more of the grating is than elsewhere.
         "diffraction": min(1.0, grating.presence) ** 0.5,
     }

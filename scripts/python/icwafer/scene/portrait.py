@@ -81,7 +81,7 @@ def _add_die(scene: bpy.types.Scene, die: Die, order: Order) -> tuple[tuple[floa
     pose = Pose(
         turn_deg=(90.0 if extent_mm[1] > extent_mm[0] else 0.0) - 16.0,
         polar_deg=42.0,
-        fill=0.86,
+        fill=0.95,
         f_stop=64.0,
     )
     made = parts(order.node)
