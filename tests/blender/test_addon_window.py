@@ -90,6 +90,9 @@ class AddOnWindow(unittest.TestCase):
 
     def test_import_through_the_file_browser(self) -> None:
         self.assertEqual(list(self.faces("imported")), ["chip"])
+        self.assertAlmostEqual(self.facts["imported"]["chip"][1], 2.0, places=3)
+        width, height = self.facts["options"]
+        self.assertTrue(width > 150 and height > 300, "no room for its options")
 
 
 if __name__ == "__main__":
