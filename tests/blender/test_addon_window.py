@@ -12,7 +12,7 @@ import host
 import numpy as np
 import pixels
 
-sys.path[:0] = [str(host.REPOSITORY / "scripts" / "python"), str(host.REPOSITORY / "tests" / "python")]
+sys.path[:0] = [str(host.REPOSITORY / name) for name in ("scripts/python", "tests/python")]
 
 from import_support import box, write_layouts  # noqa: E402
 
