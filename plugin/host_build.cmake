@@ -88,6 +88,28 @@ if(ICWAFER_BUILD STREQUAL "blender")
     USE_SOURCE_PERMISSIONS OPTIONAL
   )
   install(DIRECTORY ${host_stage}/share/locale DESTINATION ${version_folder}/datafiles OPTIONAL)
+
+  # The add-on, and of the Python package what it needs: no commands, no build.
+  set(installed_scripts ${version_folder}/scripts)
+  set(package ${PROJECT_SOURCE_DIR}/scripts/python/icwafer)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/plugin/addon/
+    DESTINATION ${installed_scripts}/addons/ic_wafer
+    PATTERN __pycache__ EXCLUDE
+  )
+  install(
+    FILES
+      ${package}/__init__.py
+      ${package}/errors.py
+      ${package}/files.py
+      ${package}/pictures.py
+      ${package}/toml_lines.py
+    DESTINATION ${installed_scripts}/modules/icwafer
+  )
+  install(DIRECTORY ${package}/chips ${package}/layout_import ${package}/scene
+    DESTINATION ${installed_scripts}/modules/icwafer
+    PATTERN __pycache__ EXCLUDE
+    PATTERN command.py EXCLUDE
+  )
 else()
   install(PROGRAMS ${host_binary}/bin/cycles DESTINATION .)
 endif()

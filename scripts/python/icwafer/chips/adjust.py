@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Changes of a layout by hand, as in a panel.
+
+What makes no sense is brought to the nearest that does.
+
+Numbers from a panel have single precision. One that is equal to what it would replace up to that
+changes nothing, so that an untouched panel gives the preset, to the last byte.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from icwafer.chips.model import DieSpec, Group, size_nm
+from icwafer.chips.rules import Rule, rule_of
+from icwafer.chips.spread import Spread
+
+#: Numbers closer than this, relative, are the same in single precision.
+_SAME = 2.0**-22
+
+
+@dataclass(frozen=True)
+class GroupChange:
+    """What is wanted of the group of this name; means and one standard deviation."""
+
+    name: str
+    spacing_nm: float
+    deviation_nm: float
+    oxide_nm: float
+    diffraction: float
+    turned: float
+
+    @classmethod
+    def none(cls, group: Group) -> GroupChange:
+        """What a group is already."""
+        return cls(
+            group.name,
+            group.spacing_nm.mean,
+            group.spacing_nm.deviation,
+            group.oxide_nm.mean,
+            group.diffraction.mean,
+            group.turned,
+        )
+
+
+def adjusted_die(
+    spec: DieSpec,
+    *,
+    seed: int,
+    width_mm: float,
+    height_mm: float,
+    block_um: float,
+    groups: Iterable[GroupChange] = (),
+    most_blocks: float = math.inf,
+) -> DieSpec:
+    """A die with other numbers; block_um grows where there would be more than `most_blocks`.
+
+    The changes of groups that the die does not have are left out.
+    """
+    changes = {change.name: change for change in groups}
+    spec = dataclasses.replace(
+        spec,
+        seed=seed,
+        width_mm=_kept(spec.width_mm, width_mm),
+        height_mm=_kept(spec.height_mm, height_mm),
+        groups=tuple(
+            adjusted_group(group, changes[group.name]) if group.name in changes else group
+            for group in spec.groups
+        ),
+    )
+    least_um = (size_nm(spec).area_um2 / most_blocks) ** 0.5
+    return dataclasses.replace(spec, block_um=max(_kept(spec.block_um, block_um), least_um))
+
+
+def adjusted_group(group: Group, change: GroupChange) -> Group:
+    """A group with other numbers, inside their rules.
+
+    The wires keep their share of the spacing, and the spread stays so narrow that there is a gap
+    between them.
+    """
+    rules = {declared.name: rule_of(declared) for declared in dataclasses.fields(Group)}
+    spacing = group.spacing_nm
+    mean = _kept(spacing.mean, change.spacing_nm, rules["spacing_nm"])
+    scale = mean / spacing.mean
+    width = group.width_nm.moved(scale * group.width_nm.mean, scale * group.width_nm.deviation)
+    deviation = _kept(spacing.deviation, max(0.0, change.deviation_nm))
+    if (mean, deviation) != (spacing.mean, spacing.deviation):
+        floor = max(rules["spacing_nm"].low, 1.001 * width.high)
+        spacing = _narrowed(spacing.moved(mean, deviation), floor, rules["spacing_nm"].high)
+    return dataclasses.replace(
+        group,
+        spacing_nm=spacing,
+        width_nm=width,
+        oxide_nm=_moved(group.oxide_nm, change.oxide_nm, rules["oxide_nm"]),
+        diffraction=_moved(group.diffraction, change.diffraction, rules["diffraction"]),
+        turned=_kept(group.turned, change.turned, rules["turned"]),
+    )
+
+
+def _kept(old: float, new: float, rule: Rule = Rule("")) -> float:
+    """The new value inside its rule, or the old one if both are the same in single precision."""
+    return old if math.isclose(old, new, rel_tol=_SAME) else min(max(new, rule.low), rule.high)
+
+
+def _moved(spread: Spread, mean: float, rule: Rule) -> Spread:
+    """A spread around another mean, as wide as the rule lets it be."""
+    mean = _kept(spread.mean, mean, rule)
+    if mean == spread.mean:
+        return spread
+    return _narrowed(spread.moved(mean, spread.deviation), rule.low, rule.high)
+
+
+def _narrowed(spread: Spread, low: float, high: float) -> Spread:
+    """A spread with the same mean, so narrow that it stays inside the ends."""
+    reach = max(spread.mean - spread.low, spread.high - spread.mean)
+    room = max(0.0, min(spread.mean - low, high - spread.mean))
+    if reach <= room:
+        return spread
+    return spread.moved(spread.mean, spread.deviation * room / reach)
