@@ -105,10 +105,19 @@ if(ICWAFER_BUILD STREQUAL "blender")
       ${package}/toml_lines.py
     DESTINATION ${installed_scripts}/modules/icwafer
   )
-  install(DIRECTORY ${package}/chips ${package}/layout_import ${package}/scene
+  install(DIRECTORY ${package}/assets ${package}/chips ${package}/layout_import ${package}/scene
     DESTINATION ${installed_scripts}/modules/icwafer
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE
+  )
+
+  # The table of material presets and, where `scripts/icwafer assets` has built it, the library.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/blend_assets/library/
+    DESTINATION ${version_folder}/datafiles/icwafer
+  )
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/assets/
+    DESTINATION ${version_folder}/datafiles/icwafer OPTIONAL
+    FILES_MATCHING PATTERN "*.blend"
   )
 else()
   install(PROGRAMS ${host_binary}/bin/cycles DESTINATION .)

@@ -8,7 +8,7 @@ and a script that brings its own copy of the package gets that one.
 A further part of the add-on is a module with `register` and `unregister`, named in `_PARTS`.
 """
 
-from . import add_die
+from . import add_die, asset_library
 
 bl_info = {
     "name": "IC Wafer",
@@ -19,7 +19,7 @@ bl_info = {
     "category": "Add Mesh",
 }
 
-_PARTS = (add_die,)
+_PARTS = (add_die, asset_library)
 
 
 def register():

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The stage on which previews of assets are photographed: one scene, whose subject changes.
+
+One Blender unit is one unit here; the subjects are about two units large.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bmesh
+import bpy
+import numpy as np
+
+from icwafer.pictures import Camera, Environment, Light, Render, View
+from icwafer.scene.camera import camera_object
+from icwafer.scene.lamps import lamp
+from icwafer.scene.polygons import polygon_mesh
+from icwafer.scene.render import set_render, set_view
+from icwafer.scene.world import world
+
+CAMERA = Camera((0.0, -7.0, 4.2), (0.0, 0.0, 0.0), lens_mm=122.0)
+LIGHTS = (
+    Light("POINT", (-2.0, -3.2, 4.0), 700, radius_mm=0.55),
+    Light("AREA", (4.5, 1.5, 2.5), 120, size_mm=(1.2, 4.0)),
+)
+SURROUNDINGS = Environment(strength=0.2)
+
+
+def stage(size: int, samples: int, lights: Sequence[Light] = LIGHTS) -> bpy.types.Scene:
+    """A scene with camera and lamps and nothing else, ready to render square pictures.
+
+    size: side of the picture in pixels.
+    """
+    scene = bpy.data.scenes.new("Stage")
+    for light in lights:
+        scene.collection.objects.link(lamp(light))
+    scene.camera = camera_object(CAMERA)
+    scene.collection.objects.link(scene.camera)
+    scene.world = world(SURROUNDINGS)
+    set_render(scene, Render((size, size), samples, seed=1, bounces=2))
+    set_view(scene, View())
+    # The browser's own background is behind the subject.
+    scene.render.film_transparent = True
+    scene.render.image_settings.color_mode = "RGBA"
+    return scene
+
+
+def ball() -> bpy.types.Object:
+    """A smooth ball of radius 1."""
+    mesh = bpy.data.meshes.new("Ball")
+    shape = bmesh.new()
+    bmesh.ops.create_uvsphere(shape, u_segments=64, v_segments=32, radius=1.0)
+    shape.to_mesh(mesh)
+    shape.free()
+    mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), dtype=bool))
+    return bpy.data.objects.new("Ball", mesh)
+
+
+def disc(inner: float = 0.125, segments: int = 128) -> bpy.types.Object:
+    """A flat disc of radius 1 with a hole, as a compact disc has it (15 mm in 120 mm)."""
+    angle = np.linspace(0.0, 2 * np.pi, segments, endpoint=False)
+    circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(segments)], axis=1)
+    index = np.arange(segments)
+    following = np.roll(index, -1)
+    faces = np.stack([index, index + segments, following + segments, following], axis=1)
+    mesh = polygon_mesh("Disc", np.concatenate([inner * circle, circle]), [faces])
+    return bpy.data.objects.new("Disc", mesh)

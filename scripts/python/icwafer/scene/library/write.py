@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Makes one file of the asset library, inside Blender:
+
+blender -b --factory-startup --python-exit-code 1 -P write.py -- KIND SOURCES FILE.blend
+
+SOURCES is the folder with the table of materials and the catalogs.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3]))
+
+import bpy  # noqa: E402
+
+from icwafer.assets.catalogs import FILE_NAME, read_catalogs  # noqa: E402
+from icwafer.assets.plan import KINDS  # noqa: E402
+from icwafer.errors import IcwaferError  # noqa: E402
+from icwafer.scene.library.asset import Asset, mark  # noqa: E402
+from icwafer.scene.library.previews import SIZE, render_preview  # noqa: E402
+from icwafer.scene.library.stage import stage  # noqa: E402
+from icwafer.scene.material import expect_node  # noqa: E402
+
+SAMPLES = 24
+
+
+def write(
+    kind: str, sources: Path, path: Path, progress: Callable[[int, int, str], None]
+) -> None:
+    """Makes the assets of a kind with their previews and writes them to a file.
+
+    progress: told after each asset the number of those done, of all, and the asset's name. Raises IcwaferError for bad sources and OSError where the file cannot be written.
+    """
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    expect_node()
+    catalogs = read_catalogs(sources / FILE_NAME)
+    assets = list(importlib.import_module(f"icwafer.scene.library.{kind}").assets(sources))
+    scene = stage(SIZE, SAMPLES)
+    for number, asset in enumerate(assets, 1):
+        if asset.catalog not in catalogs:
+            raise IcwaferError(f"{sources / FILE_NAME}: has no catalog '{asset.catalog}': add it")
+        mark(asset, catalogs[asset.catalog])
+        _photograph(scene, asset)
+        progress(number, len(assets), asset.id.name)
+    try:
+        bpy.data.libraries.write(
+            str(path), {asset.id for asset in assets}, fake_user=True, compress=True
+        )
+    except RuntimeError as error:
+        raise OSError(None, " ".join(str(error).split()), str(path)) from error
+
+
+def _photograph(scene: bpy.types.Scene, asset: Asset) -> None:
+    objects, children = set(scene.collection.objects), set(scene.collection.children)
+    asset.pose(scene)
+    render_preview(scene, asset.id)
+    for thing in set(scene.collection.objects) - objects:
+        scene.collection.objects.unlink(thing)
+    for thing in set(scene.collection.children) - children:
+        scene.collection.children.unlink(thing)
+
+
+def _progress_without_cycles() -> Callable[[int, int, str], None]:
+    """Prints how far the work is, and keeps what Blender itself prints about it to itself."""
+    stream = os.fdopen(os.dup(sys.stdout.fileno()), "w")
+    with open(os.devnull, "w") as nowhere:
+        os.dup2(nowhere.fileno(), sys.stdout.fileno())
+
+    def progress(done: int, total: int, name: str) -> None:
+        print(f"[{done}/{total}] {name}", file=stream, flush=True)
+
+    return progress
+
+
+def main(arguments: list[str]) -> int:
+    try:
+        kind, sources, path = arguments
+        if kind not in KINDS:
+            raise IcwaferError(f"no kind of assets '{kind}': choose from {', '.join(KINDS)}")
+        write(kind, Path(sources), Path(path), _progress_without_cycles())
+    except (IcwaferError, OSError) as error:
+        print(f"icwafer: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[sys.argv.index("--") + 1 :]))
