@@ -5,10 +5,13 @@ It is thin over the package `icwafer`, which is installed beside Blender's own m
 that package is imported before it is needed, so that Blender starts as fast as without the add-on,
 and a script that brings its own copy of the package gets that one.
 
-A further part of the add-on is a module with `register` and `unregister`, named in `_PARTS`.
+A further part is a module whose classes are named in `_CLASSES`, or that has `register` and
+`unregister` and is named in `_PARTS`.
 """
 
-from . import add_die, asset_library
+import bpy
+
+from . import add_die, add_wafer, asset_library, menus, options
 
 bl_info = {
     "name": "IC Wafer",
@@ -19,10 +22,14 @@ bl_info = {
     "category": "Add Mesh",
 }
 
-_PARTS = (add_die, asset_library)
+#: Classes in the order in which one needs the other, and parts that register more than a class.
+_CLASSES = (options.IC_PG_group, add_die.MESH_OT_ic_die_add, add_wafer.MESH_OT_ic_wafer_add)
+_PARTS = (menus, asset_library)
 
 
 def register():
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
     for part in _PARTS:
         part.register()
 
@@ -30,3 +37,5 @@ def register():
 def unregister():
     for part in reversed(_PARTS):
         part.unregister()
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)

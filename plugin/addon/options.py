@@ -8,7 +8,7 @@ imported when Blender starts.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import (
@@ -21,7 +21,7 @@ from bpy.props import (
 )
 
 if TYPE_CHECKING:
-    from icwafer.chips.model import DieSpec, Group
+    from icwafer.chips.model import DieSpec, Group, Layout
 
 #: More would make Blender wait: so many take about two seconds.
 MOST_BLOCKS = 1_000_000
@@ -143,15 +143,20 @@ class ChipOptions:
             return
         from icwafer.chips.presets import PRESETS
 
-        spec = PRESETS[self.preset].dies[0]
-        for name in ("seed", "width_mm", "height_mm", "block_um"):
+        preset = PRESETS[self.preset]
+        for name, value in self.numbers_of(preset).items():
             if self.filled_from or not self.properties.is_property_set(name):
-                setattr(self, name, getattr(spec, name))
+                setattr(self, name, value)
         if self.filled_from or not self.groups:
             self.groups.clear()
-            for group in _main_groups(spec):
+            for group in _main_groups(preset.dies[0]):
                 _show(self.groups.add(), group)
         self.filled_from = self.preset
+
+    def numbers_of(self, preset: Layout) -> dict[str, Any]:
+        """The panel's numbers that a preset says, but for the groups."""
+        names = ("seed", "width_mm", "height_mm", "block_um")
+        return {name: getattr(preset.dies[0], name) for name in names}
 
     def adjusted(self, spec: DieSpec) -> DieSpec:
         """The die of the preset with the panel's numbers."""
@@ -217,11 +222,3 @@ def _show(item: IC_PG_group, group: Group) -> None:
 
     for name, value in vars(GroupChange.none(group)).items():
         setattr(item, name, value)
-
-
-def register() -> None:
-    bpy.utils.register_class(IC_PG_group)
-
-
-def unregister() -> None:
-    bpy.utils.unregister_class(IC_PG_group)

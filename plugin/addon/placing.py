@@ -7,16 +7,21 @@ scene wants them. The colours do not depend on it.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
-from bpy_extras.object_utils import AddObjectHelper, object_data_add
+from bpy_extras.object_utils import AddObjectHelper, add_object_align_init, object_data_add
 from mathutils import Matrix
+
+if TYPE_CHECKING:
+    from icwafer.scene.parts import Parts
 
 NODE = "ShaderNodeBsdfICWafer"
 
 
 def _items_of(name: str) -> list[tuple[str, str, str]]:
-    """The choices of a property of the node; none in a Blender without it."""
+    """The choices of a property of the node; only one in a Blender without it."""
     node = getattr(bpy.types, NODE, None)
     if node is None:
         return [("NONE", "None", "This Blender has no IC Wafer BSDF")]
@@ -25,7 +30,7 @@ def _items_of(name: str) -> list[tuple[str, str, str]]:
 
 
 class PlacingOptions(AddObjectHelper):
-    """Properties of an operator that adds a thing with the node's material."""
+    """Properties of an operator that adds a thing made of the node's material."""
 
     size: FloatProperty(
         name="Size",
@@ -41,7 +46,12 @@ class PlacingOptions(AddObjectHelper):
         name="True Scale",
         description="As large as in reality, by the scene's unit of length, instead of Size",
     )
-    model: EnumProperty(name="Model", items=_items_of("model"), default=_items_of("model")[0][0])
+    catch_light: BoolProperty(
+        name="Catch the Light",
+        description="Turn it about its own axis so that the colours of the brightest lamp reach "
+        "the camera",
+        default=True,
+    )
     metal: EnumProperty(
         name="Metal",
         description="What the wires are made of",
@@ -53,44 +63,69 @@ class PlacingOptions(AddObjectHelper):
         items=_items_of("illuminant"),
     )
 
-    def material(self, name: str) -> bpy.types.Material:
-        """A new material that takes its wires from the attributes of the mesh."""
-        from icwafer.scene.material import wafer_material
+    def parts(self) -> Parts:
+        """New materials that take the wires from the attributes of the mesh."""
+        from icwafer.scene.parts import parts
 
-        values = {"model": self.model}
-        if self.model == "PHYSICAL":
-            values |= {"metal": self.metal, "illuminant": self.illuminant}
-        material = wafer_material(values)
-        material.name = name
-        return material
+        return parts({"metal": self.metal, "illuminant": self.illuminant})
 
-    def scale_for(self, context: bpy.types.Context, longest_mm: float) -> float:
+    def add_mesh(
+        self, context: bpy.types.Context, mesh: bpy.types.Mesh, longest_mm: float, wires_rad: float
+    ) -> None:
+        """Puts a mesh where Blender's own Add operators would, and selects it.
+
+        longest_mm: its longest side. wires_rad: direction of most of its wires. In edit mode it
+        becomes a part of the mesh that is edited, at the angle that was asked for.
+        """
+        if context.mode == "EDIT_MESH":
+            mesh.transform(Matrix.Scale(self._scale(context, longest_mm), 4))
+            object_data_add(context, mesh, operator=self)
+            return
+        thing = object_data_add(context, mesh, operator=self)
+        self._fit(context, thing, longest_mm, wires_rad)
+
+    def place(
+        self,
+        context: bpy.types.Context,
+        thing: bpy.types.Object,
+        longest_mm: float,
+        wires_rad: float,
+    ) -> None:
+        """The same for an object that is already in the scene."""
+        for other in context.view_layer.objects:
+            other.select_set(False)
+        thing.matrix_world = add_object_align_init(context, self)
+        self._fit(context, thing, longest_mm, wires_rad)
+        view = context.space_data
+        if view and view.type == "VIEW_3D" and view.local_view:
+            thing.local_view_set(view, True)
+        thing.select_set(True)
+        context.view_layer.objects.active = thing
+
+    def _fit(
+        self,
+        context: bpy.types.Context,
+        thing: bpy.types.Object,
+        longest_mm: float,
+        wires_rad: float,
+    ) -> None:
+        from icwafer.scene.turn import turn_to_light_rad
+
+        thing.scale = [self._scale(context, longest_mm)] * 3
+        if self.catch_light:
+            turn_rad = turn_to_light_rad(context.scene, thing, wires_rad)
+            thing.rotation_euler.rotate_axis("Z", turn_rad)
+
+    def _scale(self, context: bpy.types.Context, longest_mm: float) -> float:
         """Units of the scene for a millimetre."""
         if self.true_scale:
             return 1e-3 / context.scene.unit_settings.scale_length
         return self.size / longest_mm
 
-    def add(
-        self, context: bpy.types.Context, mesh: bpy.types.Mesh, scale: float
-    ) -> bpy.types.Object | None:
-        """Puts a mesh where Blender's own Add operators would, and selects it.
-
-        In edit mode it becomes a part of the mesh that is edited; then there is no new object.
-        """
-        if context.mode == "EDIT_MESH":
-            mesh.transform(Matrix.Scale(scale, 4))
-            object_data_add(context, mesh, operator=self)
-            return None
-        thing = object_data_add(context, mesh, operator=self)
-        thing.scale = (scale, scale, scale)
-        return thing
-
     def draw_look(self, layout: bpy.types.UILayout) -> None:
         """The panel's part on the material."""
-        layout.prop(self, "model")
-        if self.model == "PHYSICAL":
-            layout.prop(self, "metal")
-            layout.prop(self, "illuminant")
+        layout.prop(self, "metal")
+        layout.prop(self, "illuminant")
 
     def draw_place(self, layout: bpy.types.UILayout) -> None:
         """The panel's part on size and place."""
@@ -99,6 +134,7 @@ class PlacingOptions(AddObjectHelper):
         row.active = not self.true_scale
         row.prop(self, "size")
         column.prop(self, "true_scale")
+        column.prop(self, "catch_light")
         layout.prop(self, "align")
         layout.prop(self, "location")
         layout.prop(self, "rotation")

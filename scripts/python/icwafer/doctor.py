@@ -14,8 +14,8 @@ from icwafer import build, packages, paths
 from icwafer.errors import IcwaferError
 from icwafer.source import host_edits
 
-#: Blender is started with this; it fails if the node is not in it.
-NODE_PROBE = "import bpy; bpy.types.ShaderNodeBsdfICWafer"
+#: Blender is started with this; it fails if the node or the add-on is not in it.
+PROBE = "import bpy; bpy.types.ShaderNodeBsdfICWafer; bpy.types.MESH_OT_ic_die_add"
 
 
 @dataclass(frozen=True)
@@ -108,13 +108,13 @@ def check_core() -> Finding:
 
 
 def check_start() -> Finding:
-    """Blender starts without a window, its Python works, and it knows the node."""
+    """Blender starts without a window, its Python works, and it knows node and add-on."""
     mend = "run scripts/icwafer build blender; if that does not help, remove build/install first"
     blender = paths.BLENDER
     command = [blender, "-b", "--factory-startup", "--python-exit-code", "1"]
     try:
         done = subprocess.run(
-            [*map(str, command), "--python-expr", NODE_PROBE],
+            [*map(str, command), "--python-expr", PROBE],
             capture_output=True,
             text=True,
             timeout=120,
@@ -127,7 +127,7 @@ def check_start() -> Finding:
         lines = (done.stderr or done.stdout).strip().splitlines()
         reason = lines[-1] if lines else f"exit status {done.returncode}"
         return Finding("Blender's start", f"{blender}: {reason}", mend)
-    return Finding("Blender's start", "starts, and has the node")
+    return Finding("Blender's start", "starts, and has the node and the add-on")
 
 
 def checks() -> list[Callable[[], Finding]]:

@@ -14,9 +14,13 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from icwafer.chips.model import DieSpec, Group, size_nm
+from icwafer.chips.check import check_layout
+from icwafer.chips.model import DieSpec, Group, Layout, size_nm
+from icwafer.chips.outline import MARKS
+from icwafer.chips.placement import reticle_field, test_field_dies_mm
 from icwafer.chips.rules import Rule, rule_of
 from icwafer.chips.spread import Spread
+from icwafer.chips.wafer import Drift, Wafer
 
 #: Numbers closer than this, relative, are the same in single precision.
 _SAME = 2.0**-22
@@ -100,6 +104,53 @@ def adjusted_group(group: Group, change: GroupChange) -> Group:
     )
 
 
+@dataclass(frozen=True)
+class WaferChange:
+    """What is wanted of a wafer.
+
+    marked: notch or flats, whichever wafers of that diameter have; else none. test_dies: whether
+    test dies stand where the layout wants them and where they fit. drift: factor on all drift.
+    """
+
+    diameter_mm: int
+    marked: bool
+    edge_exclusion_mm: float
+    scribe_um: float
+    partial_dies: bool
+    test_dies: bool
+    drift: float
+    seed: int
+
+
+def adjusted_wafer(dies: tuple[DieSpec, ...], wafer: Wafer, change: WaferChange) -> Layout:
+    """A layout of dies on a wafer with other numbers. Raises IcwaferError where none fits."""
+    wanted_fields = wafer.test_fields
+    scaled = {
+        name: _scaled(getattr(wafer, name), change.drift) for name in ("oxide", "groove", "width")
+    }
+    wafer = dataclasses.replace(
+        wafer,
+        diameter_mm=change.diameter_mm,
+        mark=MARKS[change.diameter_mm][0] if change.marked else "none",
+        edge_exclusion_mm=change.edge_exclusion_mm,
+        scribe_um=change.scribe_um,
+        partial_dies=change.partial_dies,
+        test_fields=(),
+        seed=change.seed,
+        **scaled,
+    )
+    if reticle_field(dies[0], wafer) is None:  # the dies are larger than they were
+        wafer = dataclasses.replace(wafer, field_columns=0, field_rows=0)
+    layout = Layout(dies, wafer)
+    check_layout(layout)
+    if change.test_dies and len(dies) > 1:
+        fields = tuple(
+            place for place in wanted_fields if len(test_field_dies_mm(layout, place))
+        )
+        layout = Layout(dies, dataclasses.replace(wafer, test_fields=fields))
+    return layout
+
+
 def _kept(old: float, new: float, rule: Rule = Rule("")) -> float:
     """The new value inside its rule, or the old one if both are the same in single precision."""
     return old if math.isclose(old, new, rel_tol=_SAME) else min(max(new, rule.low), rule.high)
@@ -120,3 +171,15 @@ def _narrowed(spread: Spread, low: float, high: float) -> Spread:
     if reach <= room:
         return spread
     return spread.moved(spread.mean, spread.deviation * room / reach)
+
+
+def _scaled(drift: Drift, factor: float) -> Drift:
+    """A drift so many times as large, inside its rules."""
+    rules = {declared.name: rule_of(declared) for declared in dataclasses.fields(Drift)}
+    return dataclasses.replace(
+        drift,
+        **{
+            name: _kept(getattr(drift, name), factor * getattr(drift, name), rules[name])
+            for name in ("bow", "ring", "tilt", "noise")
+        },
+    )

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Where the operators stand in Blender's menus."""
+
+from __future__ import annotations
+
+import bpy
+
+
+def _draw_add(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.operator("mesh.ic_die_add", icon="MESH_GRID")
+    if context.mode == "OBJECT":
+        self.layout.operator("mesh.ic_wafer_add", icon="MESH_CIRCLE")
+
+
+def register() -> None:
+    bpy.types.VIEW3D_MT_mesh_add.append(_draw_add)
+
+
+def unregister() -> None:
+    bpy.types.VIEW3D_MT_mesh_add.remove(_draw_add)
