@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import bpy
 
 AUTHOR = "IC Wafer BSDF"
+#: Longest side of a thing, in units of the scene: that of the cube in a new scene.
+LARGE = 2.0
 
 
 @dataclass(frozen=True)
@@ -16,7 +18,7 @@ class Asset:
     """A data-block that becomes an asset.
 
     catalog: its path, as "Materials/Metals". pose: puts what the preview shows into the scene of
-    the previews; whatever it links there is taken out again.
+    the previews, or takes something out; what that scene holds is restored afterwards.
     """
 
     id: bpy.types.ID
@@ -34,3 +36,27 @@ def mark(asset: Asset, catalog_id: str) -> None:
     data.author = AUTHOR
     for tag in ("IC Wafer", *asset.catalog.split("/")):
         data.tags.new(tag, skip_if_exists=True)
+
+
+def show_at(
+    thing: bpy.types.Object, longest_mm: float, own_wires_rad: float, wires_rad: float
+) -> None:
+    """Makes a thing in mm two units large, and turns it so that most of its wires lie as wanted."""
+    thing.scale = (LARGE / longest_mm,) * 3
+    thing.rotation_euler.z = wires_rad - own_wires_rad
+
+
+def posed(thing: bpy.types.Object, name: str) -> bpy.types.Collection:
+    """A collection of one thing, which keeps its turn where it is dragged into a scene.
+
+    The asset browser puts an object down along the axes of the scene, where wires that run along
+    its edges are dark; of a collection it puts down an instance.
+    """
+    collection = bpy.data.collections.new(name)
+    collection.objects.link(thing)
+    return collection
+
+
+def show_collection(collection: bpy.types.Collection, scene: bpy.types.Scene) -> None:
+    """Puts all of a collection into the scene of the previews."""
+    scene.collection.children.link(collection)

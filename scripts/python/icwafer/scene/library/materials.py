@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -11,24 +10,21 @@ from pathlib import Path
 import bpy
 
 from icwafer.assets.materials import FILE_NAME, read_materials
-from icwafer.chips.die import generate
-from icwafer.chips.presets import PRESETS
 from icwafer.scene.library.asset import Asset
+from icwafer.scene.library.dies import sample_die
 from icwafer.scene.library.stage import ball, disc
-from icwafer.scene.mesh import die_mesh
 from icwafer.scene.presets import preset_material
 
-#: In Blender's new scene the bisector of lamp and camera, seen from above the middle of the grid,
-#: points to -21.4 degrees. Wires across that line send their colours to the camera.
-DIRECTION_RAD = math.radians(68.6)
 
+def assets(sources: Path, wires_rad: float) -> Iterator[Asset]:
+    """All materials of the table in the folder of the library's sources.
 
-def assets(sources: Path) -> Iterator[Asset]:
-    """All materials of the table in the folder of the library's sources."""
+    wires_rad: direction of wires that catches the light in a new scene.
+    """
     for preset in read_materials(sources / FILE_NAME):
-        material = preset_material(preset, DIRECTION_RAD)
+        material = preset_material(preset, wires_rad)
         if preset.from_attributes:
-            subject = _die()
+            subject = sample_die(wires_rad)
         elif preset.round_tracks:
             subject = disc()
         else:
@@ -37,15 +33,9 @@ def assets(sources: Path) -> Iterator[Asset]:
         yield Asset(material, preset.catalog, text, partial(_show, subject, material))
 
 
-def _die() -> bpy.types.Object:
-    spec = PRESETS["eight-core"].dies[0]
-    die = bpy.data.objects.new("Die", die_mesh(generate(spec)))
-    die.scale = (2.4 / spec.width_mm,) * 3
-    return die
-
-
 def _show(
     subject: bpy.types.Object, material: bpy.types.Material, scene: bpy.types.Scene
 ) -> None:
+    subject.data.materials.clear()
     subject.data.materials.append(material)
     scene.collection.objects.link(subject)

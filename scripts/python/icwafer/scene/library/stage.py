@@ -6,8 +6,6 @@ One Blender unit is one unit here; the subjects are about two units large.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import bmesh
 import bpy
 import numpy as np
@@ -19,22 +17,28 @@ from icwafer.scene.polygons import polygon_mesh
 from icwafer.scene.render import set_render, set_view
 from icwafer.scene.world import world
 
-CAMERA = Camera((0.0, -7.0, 4.2), (0.0, 0.0, 0.0), lens_mm=122.0)
+#: Wires that catch the light of Blender's new scene show their colours here, too: the camera stands
+#: steeper, and the sum of the directions to it and to each of the two small lamps lies across them.
+CAMERA = Camera((3.8, -4.38, 5.8), (0.0, 0.0, 0.0), lens_mm=128.0)
 LIGHTS = (
-    Light("POINT", (-2.0, -3.2, 4.0), 700, radius_mm=0.55),
-    Light("AREA", (4.5, 1.5, 2.5), 120, size_mm=(1.2, 4.0)),
+    Light("POINT", (3.2, 0.8, 4.6), 600, radius_mm=0.5),
+    Light("POINT", (0.15, 1.88, 5.2), 500, radius_mm=0.4),
+    Light("AREA", (-2.8, -3.6, 2.2), 120, size_mm=(1.2, 4.0)),
 )
+LAMPS = "Lamps of the stage"
 SURROUNDINGS = Environment(strength=0.2)
 
 
-def stage(size: int, samples: int, lights: Sequence[Light] = LIGHTS) -> bpy.types.Scene:
+def stage(size: int, samples: int) -> bpy.types.Scene:
     """A scene with camera and lamps and nothing else, ready to render square pictures.
 
-    size: side of the picture in pixels.
+    size: side of the picture in pixels. The lamps are in a collection of their own.
     """
     scene = bpy.data.scenes.new("Stage")
-    for light in lights:
-        scene.collection.objects.link(lamp(light))
+    lamps = bpy.data.collections.new(LAMPS)
+    scene.collection.children.link(lamps)
+    for light in LIGHTS:
+        lamps.objects.link(lamp(light))
     scene.camera = camera_object(CAMERA)
     scene.collection.objects.link(scene.camera)
     scene.world = world(SURROUNDINGS)
@@ -47,7 +51,7 @@ def stage(size: int, samples: int, lights: Sequence[Light] = LIGHTS) -> bpy.type
 
 
 def ball() -> bpy.types.Object:
-    """A smooth ball of radius 1."""
+    """A smooth ball that fills the picture."""
     mesh = bpy.data.meshes.new("Ball")
     shape = bmesh.new()
     bmesh.ops.create_uvsphere(shape, u_segments=64, v_segments=32, radius=1.0)

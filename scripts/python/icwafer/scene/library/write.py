@@ -25,6 +25,7 @@ from icwafer.scene.library.asset import Asset, mark  # noqa: E402
 from icwafer.scene.library.previews import SIZE, render_preview  # noqa: E402
 from icwafer.scene.library.stage import stage  # noqa: E402
 from icwafer.scene.material import expect_node  # noqa: E402
+from icwafer.scene.turn import turn_to_light_rad  # noqa: E402
 
 SAMPLES = 24
 
@@ -36,10 +37,13 @@ def write(
 
     progress: told after each asset the number of those done, of all, and the asset's name. Raises IcwaferError for bad sources and OSError where the file cannot be written.
     """
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_factory_settings()
     expect_node()
+    wires_rad = _wires_in_new_scene_rad(bpy.context.scene)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
     catalogs = read_catalogs(sources / FILE_NAME)
-    assets = list(importlib.import_module(f"icwafer.scene.library.{kind}").assets(sources))
+    contents = importlib.import_module(f"icwafer.scene.library.{kind}")
+    assets = list(contents.assets(sources, wires_rad))
     scene = stage(SIZE, SAMPLES)
     for number, asset in enumerate(assets, 1):
         if asset.catalog not in catalogs:
@@ -55,14 +59,21 @@ def write(
         raise OSError(None, " ".join(str(error).split()), str(path)) from error
 
 
+def _wires_in_new_scene_rad(scene: bpy.types.Scene) -> float:
+    """The direction of wires on the ground in whose colours Blender's new scene shows its middle."""
+    return turn_to_light_rad(scene, bpy.data.objects.new("Middle", None), 0.0)
+
+
 def _photograph(scene: bpy.types.Scene, asset: Asset) -> None:
-    objects, children = set(scene.collection.objects), set(scene.collection.children)
+    before = [set(links) for links in (scene.collection.objects, scene.collection.children)]
     asset.pose(scene)
     render_preview(scene, asset.id)
-    for thing in set(scene.collection.objects) - objects:
-        scene.collection.objects.unlink(thing)
-    for thing in set(scene.collection.children) - children:
-        scene.collection.children.unlink(thing)
+    for links, kept in zip((scene.collection.objects, scene.collection.children), before):
+        now = set(links)
+        for thing in now - kept:
+            links.unlink(thing)
+        for thing in kept - now:
+            links.link(thing)
 
 
 def _progress_without_cycles() -> Callable[[int, int, str], None]:
