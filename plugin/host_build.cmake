@@ -99,13 +99,22 @@ if(ICWAFER_BUILD STREQUAL "blender")
   install(
     FILES
       ${package}/__init__.py
+      ${package}/attributes.py
       ${package}/errors.py
       ${package}/files.py
-      ${package}/pictures.py
       ${package}/toml_lines.py
     DESTINATION ${installed_scripts}/modules/icwafer
   )
+<<<<<<< HEAD
   install(DIRECTORY ${package}/assets ${package}/chips ${package}/layout_import ${package}/scene
+=======
+  install(
+    DIRECTORY
+      ${package}/chips
+      ${package}/layout_import
+      ${package}/pictures
+      ${package}/scene
+>>>>>>> addon
     DESTINATION ${installed_scripts}/modules/icwafer
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE

@@ -11,19 +11,28 @@ A further part is a module whose classes are named in `_CLASSES`, or that has `r
 
 import bpy
 
-from . import add_die, add_wafer, asset_library, menus, options
+from . import add_die, add_wafer, attributes_panel, import_chip, menus, options
 
 bl_info = {
     "name": "IC Wafer",
     "description": "Chips and wafers with the colours of diffraction, made up or from layout files",
     "version": (1, 0, 0),
     "blender": (3, 4, 0),
-    "location": "Add > Mesh; File > Import; Properties > Object Data",
+    "location": "Add > Mesh; File > Import; Properties > Object Data and Material",
     "category": "Add Mesh",
 }
 
 #: Classes in the order in which one needs the other, and parts that register more than a class.
-_CLASSES = (options.IC_PG_group, add_die.MESH_OT_ic_die_add, add_wafer.MESH_OT_ic_wafer_add)
+_CLASSES = (
+    options.IC_PG_group,
+    add_die.MESH_OT_ic_die_add,
+    add_wafer.MESH_OT_ic_wafer_add,
+    import_chip.IMPORT_SCENE_OT_ic_chip,
+    attributes_panel.WM_OT_ic_attribute_copy,
+    attributes_panel.OBJECT_OT_ic_material_add,
+    attributes_panel.DATA_PT_ic_attributes,
+    *material_presets.CLASSES,
+)
 _PARTS = (menus, asset_library)
 
 

@@ -3,11 +3,40 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 
 from .errors import reported
 from .options import ChipOptions
 from .placing import PlacingOptions
+
+if TYPE_CHECKING:
+    from icwafer.chips.model import DieSpec
+
+
+def gap_nm(spec: DieSpec) -> float:
+    """The dark line between blocks; of blocks that are listed it is known where they end."""
+    from icwafer.scene.mesh import GAP_NM
+
+    return GAP_NM if spec.blocks is None else 0.0
+
+
+def add_die(
+    operator: PlacingOptions, context: bpy.types.Context, spec: DieSpec, name: str
+) -> None:
+    """Adds a chip, made of the operator's materials and placed by its options."""
+    from icwafer.chips.die import generate, main_direction_rad
+    from icwafer.scene.mesh import die_mesh
+
+    die = generate(spec)
+    mesh = die_mesh(die, gap_nm(spec), ground=True)
+    mesh.name = name
+    materials = operator.parts()
+    for material in (materials.blocks, materials.ground):
+        mesh.materials.append(material)
+    longest_mm = max(spec.width_mm, spec.height_mm)
+    operator.add_mesh(context, mesh, longest_mm, main_direction_rad(die))
 
 
 class MESH_OT_ic_die_add(ChipOptions, PlacingOptions, bpy.types.Operator):
@@ -23,20 +52,10 @@ class MESH_OT_ic_die_add(ChipOptions, PlacingOptions, bpy.types.Operator):
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        from icwafer.chips.die import generate, main_direction_rad
         from icwafer.chips.presets import PRESETS
-        from icwafer.scene.mesh import die_mesh
 
         self.fill_from_preset()
-        spec = self.adjusted(PRESETS[self.preset].dies[0])
-        die = generate(spec)
-        mesh = die_mesh(die, ground=True)
-        mesh.name = "IC Die"
-        materials = self.parts()
-        for material in (materials.blocks, materials.ground):
-            mesh.materials.append(material)
-        longest_mm = max(spec.width_mm, spec.height_mm)
-        self.add_mesh(context, mesh, longest_mm, main_direction_rad(die))
+        add_die(self, context, self.adjusted(PRESETS[self.preset].dies[0]), "IC Die")
         return {"FINISHED"}
 
     def draw(self, _context: bpy.types.Context) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
+from .add_die import gap_nm
 from .busy import progress
 from .errors import reported
 from .options import ChipOptions
@@ -92,7 +93,7 @@ class WaferOptions:
         }
 
     def add_wafer(
-        self, context: bpy.types.Context, dies: tuple[DieSpec, ...], wafer: Wafer
+        self, context: bpy.types.Context, dies: tuple[DieSpec, ...], wafer: Wafer, name: str
     ) -> None:
         """Adds a wafer of these dies, with the panel's numbers."""
         from icwafer.chips.adjust import WaferChange, adjusted_wafer
@@ -114,7 +115,9 @@ class WaferOptions:
             ),
         )
         with progress(context) as tell:
-            thing = add_wafer(layout, context.collection, self.parts(), "IC Wafer", progress=tell)
+            thing = add_wafer(
+                layout, context.collection, self.parts(), name, gap_nm(dies[0]), tell
+            )
         self.place(context, thing, layout.wafer.diameter_mm, main_direction_rad(generate(dies[0])))
 
     def draw_wafer(self, layout: bpy.types.UILayout) -> None:
@@ -151,7 +154,7 @@ class MESH_OT_ic_wafer_add(ChipOptions, WaferOptions, PlacingOptions, bpy.types.
         self.fill_from_preset()
         preset = PRESETS[self.preset]
         dies = (self.adjusted(preset.dies[0]), *preset.dies[1:])
-        self.add_wafer(context, dies, preset.wafer or drifting_wafer())
+        self.add_wafer(context, dies, preset.wafer or drifting_wafer(), "IC Wafer")
         return {"FINISHED"}
 
     def numbers_of(self, preset: Layout) -> dict[str, Any]:

@@ -89,7 +89,7 @@ def adjusted_group(group: Group, change: GroupChange) -> Group:
     spacing = group.spacing_nm
     mean = _kept(spacing.mean, change.spacing_nm, rules["spacing_nm"])
     scale = mean / spacing.mean
-    width = group.width_nm.moved(scale * group.width_nm.mean, scale * group.width_nm.deviation)
+    width = _moved(group.width_nm, scale * group.width_nm.mean, rules["width_nm"], scale)
     deviation = _kept(spacing.deviation, max(0.0, change.deviation_nm))
     if (mean, deviation) != (spacing.mean, spacing.deviation):
         floor = max(rules["spacing_nm"].low, 1.001 * width.high)
@@ -140,7 +140,7 @@ def adjusted_wafer(dies: tuple[DieSpec, ...], wafer: Wafer, change: WaferChange)
         **scaled,
     )
     if reticle_field(dies[0], wafer) is None:  # the dies are larger than they were
-        wafer = dataclasses.replace(wafer, field_columns=0, field_rows=0)
+        wafer = dataclasses.replace(wafer, field_columns=0, field_rows=0, blank_fields=())
     layout = Layout(dies, wafer)
     check_layout(layout)
     if change.test_dies and len(dies) > 1:
@@ -156,12 +156,12 @@ def _kept(old: float, new: float, rule: Rule = Rule("")) -> float:
     return old if math.isclose(old, new, rel_tol=_SAME) else min(max(new, rule.low), rule.high)
 
 
-def _moved(spread: Spread, mean: float, rule: Rule) -> Spread:
-    """A spread around another mean, as wide as the rule lets it be."""
+def _moved(spread: Spread, mean: float, rule: Rule, scale: float = 1.0) -> Spread:
+    """A spread around another mean, `scale` times as wide or as wide as the rule lets it be."""
     mean = _kept(spread.mean, mean, rule)
     if mean == spread.mean:
         return spread
-    return _narrowed(spread.moved(mean, spread.deviation), rule.low, rule.high)
+    return _narrowed(spread.moved(mean, scale * spread.deviation), rule.low, rule.high)
 
 
 def _narrowed(spread: Spread, low: float, high: float) -> Spread:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import signal
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 
@@ -34,10 +34,13 @@ class Imported:
     looks: dict[tuple[int, int], Look]
 
 
-def import_layout(request: Request) -> Imported:
+def import_layout(
+    request: Request, progress: Callable[[float], None] = lambda _: None
+) -> Imported:
     """Reads a chip and finds what it is made of; one tile after the other, on all processors.
 
-    Raises IcwaferError where the file cannot be read.
+    progress is told how much of the tiles is done, 0 to 1. Raises IcwaferError where the file
+    cannot be read.
     """
     parts = cut_out(request)
     chip = next(parts)
@@ -45,7 +48,9 @@ def import_layout(request: Request) -> Imported:
         (column, row): [] for row in range(chip.tiles[1]) for column in range(chip.tiles[0])
     }
     any_metal = False
-    for cutout, gratings in _examined(parts):
+    cutouts = len(found) * len(request.process.layers)
+    for number, (cutout, gratings) in enumerate(_examined(parts)):
+        progress(number / cutouts)
         any_metal |= len(cutout.outline.edges_um) > 0
         found[cutout.tile] += [Finding(cutout.layer, cutout.visible, g) for g in gratings]
     if not any_metal:

@@ -33,6 +33,8 @@ from icwafer.chips.suggest import unknown
 from icwafer.errors import IcwaferError
 from icwafer.toml_lines import key_name, line_of
 
+#: The process of a file of which nothing else is said.
+USUAL = "sky130"
 FORMAT = "icwafer-process"
 VERSION = 1
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from icwafer.chips.model import Layout
 from icwafer.chips.presets import (
+    bar_memory,
     dram,
     fpga,
     graphics,
@@ -20,6 +21,7 @@ PRESETS: dict[str, Layout] = {
     "eight-core": processor.LAYOUT,
     "graphics": graphics.LAYOUT,
     "dram": dram.LAYOUT,
+    "bar-memory": bar_memory.LAYOUT,
     "image-sensor": image_sensor.LAYOUT,
     "microcontroller": microcontroller.LAYOUT,
     "fpga": fpga.LAYOUT,
@@ -35,6 +37,7 @@ TITLES: dict[str, tuple[str, str]] = {
     "eight-core": ("Eight-Core Processor", "Two complexes of four cores around shared caches"),
     "graphics": ("Graphics Processor", "Eight clusters and a shared cache, as large as a reticle"),
     "dram": ("DRAM", "Sixteen banks of memory, with the pads in a line through the middle"),
+    "bar-memory": ("Two-Bar Memory", "Small, on a wafer as in a photograph: two bars of cells"),
     "image-sensor": ("Image Sensor", "12 megapixels: the pixels are the grating, both ways"),
     "microcontroller": ("Microcontroller", "Small and simple, half of it flash memory and RAM"),
     "fpga": ("FPGA", "Columns of equal tiles, cut into clock regions"),

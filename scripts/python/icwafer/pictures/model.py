@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The eight pictures as data: which die, which effects, lit and seen how, and what each one shows.
+"""What a picture is made of, as data: which die or wafer, which effects, lit and seen how.
 
-Lengths are in millimetres, and so is the scene: 1 Blender unit is 1 mm. The die lies in the plane
-z = 0 with its centre at the origin.
+Lengths are in millimetres, and so is the scene: 1 Blender unit is 1 mm. The die or the wafer's
+front lies in the plane z = 0 with its centre at the origin.
 """
 
 from __future__ import annotations
@@ -11,16 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from icwafer.chips.model import DieSpec
-from icwafer.chips.presets.spacing import (
-    CLUSTERED_DIE,
-    CLUSTERED_GROUPS,
-    EVEN_GROUPS,
-    NORMAL_DIE,
-    UNIFORM_DIE,
-    with_spacing,
-)
 from icwafer.chips.rules import ruled
-from icwafer.chips.spread import Normal
 
 Vector = tuple[float, float, float]
 #: Value of an input or property of the node: `use_thin_film` is a flag, `model` a name, `Color`
@@ -33,6 +24,13 @@ FAR_MM = 100_000.0
 def light_kinds() -> tuple[str, ...]:
     """The lamps that there are, as Blender calls them."""
     return ("POINT", "SPOT", "AREA")
+
+
+def wafer_names() -> tuple[str, ...]:
+    """The ready layouts that have a wafer, and none."""
+    from icwafer.chips.presets import PRESETS
+
+    return ("", *(name for name, layout in PRESETS.items() if layout.wafer))
 
 
 @dataclass(frozen=True)
@@ -54,6 +52,13 @@ class Light:
     size_mm: tuple[float, float] = ruled(
         "width and height of an area", 1e-3, FAR_MM, default=(10.0, 10.0)
     )
+    fade: float = ruled(
+        "share of an area over which its light fades out towards the edges, as in a softbox",
+        0,
+        1,
+        default=0.0,
+    )
+    turn_deg: float = ruled("of an area about its own axis", -360, 360, default=0.0)
 
 
 @dataclass(frozen=True)
@@ -67,12 +72,29 @@ class Environment:
 
 
 @dataclass(frozen=True)
+class Table:
+    """What a wafer lies on: a plane, fading into the dark with the distance from the middle."""
+
+    size_mm: float = ruled("radius at which it is dark, 0 for no table", 0, FAR_MM, default=0.0)
+    colour: Vector = ruled("linear Rec.709", 0, 1, default=(0.02, 0.02, 0.022))
+    roughness: float = ruled("0 polished, 1 matt", 0, 1, default=0.3)
+    depth_mm: float = ruled("how far below the front of the wafer", 0, FAR_MM, default=0.8)
+
+
+@dataclass(frozen=True)
 class Camera:
-    """A camera with a sensor 36 mm wide, upright."""
+    """A camera with a sensor 36 mm wide."""
 
     position_mm: Vector = ruled("where it stands", -FAR_MM, FAR_MM)
     target_mm: Vector = ruled("what is in the middle of the picture", -FAR_MM, FAR_MM)
     lens_mm: float = ruled("focal length", 1, 5000, default=50.0)
+    roll_deg: float = ruled("turned clockwise from upright", -360, 360, default=0.0)
+    f_stop: float = ruled(
+        "focal length over aperture; sharp is what is as far as the target, with 0 all is",
+        0,
+        1000,
+        default=0.0,
+    )
 
 
 @dataclass(frozen=True)
@@ -106,6 +128,7 @@ class Render:
 class Picture:
     """One picture: `caption` says what it shows.
 
+    wafer: the ready layout whose wafer is shown, full of `die`; none for the die alone.
     node: inputs of the node by their names, and its properties; one that is named here is not
     driven by the blocks' attributes.
     """
@@ -115,91 +138,8 @@ class Picture:
     lights: tuple[Light, ...]
     camera: Camera
     node: Mapping[str, NodeValue] = field(default_factory=dict)
+    wafer: str = ruled("wafer full of the die, none for one die", choices=wafer_names, default="")
+    table: Table = Table()
     environment: Environment = Environment()
     view: View = View()
     render: Render = Render()
-
-
-WHOLE = Camera(position_mm=(-11.1, -24.7, 20.9), target_mm=(0.0, -0.7, 0.0), lens_mm=66)
-NEAR = Camera(position_mm=(-6.4, -21.1, 14.5), target_mm=(-1.1, -0.55, 0.0), lens_mm=66)
-
-KEY = Light("POINT", (6.0, -14.0, 26.0), 60000)
-SPOT = Light("SPOT", (-16.0, -20.0, 16.0), 50000, cone_deg=35)
-LEFT_PAIR = (
-    Light("POINT", (-10.0, -6.0, 14.0), 26000),
-    Light("POINT", (-16.0, -18.0, 20.0), 22000),
-)
-
-PROCESSOR = DieSpec(CLUSTERED_GROUPS, seed=17)
-GRATING = DieSpec(with_spacing(EVEN_GROUPS, Normal(1000, 4)), seed=17)
-
-MATERIAL: dict[str, NodeValue] = {
-    "model": "CS348B",
-    "Lobe Width": 0.02,
-    "Specular Roughness": 0.15,
-}
-GRATING_ONLY = MATERIAL | {"use_thin_film": False, "use_wire_diffraction": False}
-
-PICTURES = {
-    "grating_one_light": Picture(
-        "Grating only, one point light: clear separate strips of colour, order after order.",
-        GRATING,
-        (Light("POINT", (1.0, -3.0, 9.0), 2500),),
-        WHOLE,
-        GRATING_ONLY | {"Lobe Width": 0.012},
-    ),
-    "grating_many_lights": Picture(
-        "Grating only, three lights: the strips of all of them lie over one another.",
-        GRATING,
-        (
-            Light("POINT", (1.0, -3.0, 9.0), 1100),
-            Light("POINT", (-9.0, -14.0, 12.0), 2600),
-            Light("POINT", (10.0, -9.0, 14.0), 2200),
-        ),
-        WHOLE,
-        GRATING_ONLY | {"Lobe Width": 0.012},
-    ),
-    "thin_film": Picture(
-        "Thin film only: colours pass into one another softly, with the angle and nothing else.",
-        PROCESSOR,
-        (Light("POINT", (-4.5, 0.4, 10.0), 5200),),
-        WHOLE,
-        MATERIAL | {"use_grating": False, "use_wire_diffraction": False},
-    ),
-    "wire_diffraction": Picture(
-        "Diffraction within a wire only: no colour to speak of, as expected.",
-        PROCESSOR,
-        (Light("POINT", (-4.5, 0.4, 10.0), 5200),),
-        WHOLE,
-        MATERIAL | {"use_grating": False, "use_thin_film": False},
-    ),
-    "full": Picture(
-        "The full model, one point and one spot light.",
-        PROCESSOR,
-        (KEY, SPOT),
-        WHOLE,
-        MATERIAL | {"Lobe Width": 0.035},
-        render=Render((1920, 1080), 32),
-    ),
-    "random_spacing": Picture(
-        "Spacing at random between 800 and 1200 nm: a disordered mess.",
-        UNIFORM_DIE,
-        LEFT_PAIR,
-        NEAR,
-        MATERIAL | {"Lobe Width": 0.04},
-    ),
-    "narrow_spacing": Picture(
-        "Spacing 1000 nm within 50 everywhere: the blocks all but vanish, no texture.",
-        NORMAL_DIE,
-        LEFT_PAIR,
-        NEAR,
-        MATERIAL | {"Lobe Width": 0.04},
-    ),
-    "clustered_groups": Picture(
-        "Clustered groups: the largest gives the background colours, the smaller ones texture.",
-        CLUSTERED_DIE,
-        LEFT_PAIR,
-        NEAR,
-        MATERIAL | {"Lobe Width": 0.04},
-    ),
-}
