@@ -105,19 +105,19 @@ if(ICWAFER_BUILD STREQUAL "blender")
       ${package}/toml_lines.py
     DESTINATION ${installed_scripts}/modules/icwafer
   )
-<<<<<<< HEAD
-  install(DIRECTORY ${package}/assets ${package}/chips ${package}/layout_import ${package}/scene
-=======
   install(
     DIRECTORY
       ${package}/chips
       ${package}/layout_import
       ${package}/pictures
       ${package}/scene
->>>>>>> addon
     DESTINATION ${installed_scripts}/modules/icwafer
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE
+    PATTERN library EXCLUDE
+  )
+  install(FILES ${package}/assets/__init__.py ${package}/assets/materials.py
+    DESTINATION ${installed_scripts}/modules/icwafer/assets
   )
 
   # The table of material presets and, where `scripts/icwafer assets` has built it, the library.

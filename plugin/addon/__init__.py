@@ -11,7 +11,16 @@ A further part is a module whose classes are named in `_CLASSES`, or that has `r
 
 import bpy
 
-from . import add_die, add_wafer, attributes_panel, import_chip, menus, options
+from . import (
+    add_die,
+    add_wafer,
+    asset_library,
+    attributes_panel,
+    import_chip,
+    material_presets,
+    menus,
+    options,
+)
 
 bl_info = {
     "name": "IC Wafer",
