@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import bpy
 
 AUTHOR = "IC Wafer BSDF"
-#: Longest side of a thing, in units of the scene: that of the cube in a new scene.
-LARGE = 2.0
+#: Longest side of a thing, in units of the scene: it lies beside or on the cube of a new scene.
+LARGE = 3.0
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def mark(asset: Asset, catalog_id: str) -> None:
 def show_at(
     thing: bpy.types.Object, longest_mm: float, own_wires_rad: float, wires_rad: float
 ) -> None:
-    """Makes a thing in mm two units large, and turns it so that most of its wires lie as wanted."""
+    """Makes a thing in mm `LARGE` units long, and turns it so that most of its wires lie as wanted."""
     thing.scale = (LARGE / longest_mm,) * 3
     thing.rotation_euler.z = wires_rad - own_wires_rad
 
