@@ -22,8 +22,12 @@ FAR_MM = 100_000.0
 
 
 def light_kinds() -> tuple[str, ...]:
-    """The lamps that there are, as Blender calls them."""
-    return ("POINT", "SPOT", "AREA")
+    """The lamps that there are, as Blender calls them, and cards.
+
+    A card is an area that only reflections show: it costs no samples where it is not mirrored, and
+    throws no light that a grating could spread.
+    """
+    return ("POINT", "SPOT", "AREA", "CARD")
 
 
 def wafer_names() -> tuple[str, ...]:
@@ -47,18 +51,18 @@ class Light:
     cone_deg: float = ruled("full angle of a spot's cone", 1, 180, default=40.0)
     blend: float = ruled("share of a spot's cone that fades out", 0, 1, default=1.0)
     target_mm: Vector = ruled(
-        "where a spot or an area points to", -FAR_MM, FAR_MM, default=(0.0, 0.0, 0.0)
+        "where a spot, an area or a card points to", -FAR_MM, FAR_MM, default=(0.0, 0.0, 0.0)
     )
     size_mm: tuple[float, float] = ruled(
-        "width and height of an area", 1e-3, FAR_MM, default=(10.0, 10.0)
+        "width and height of an area or a card", 1e-3, FAR_MM, default=(10.0, 10.0)
     )
     fade: float = ruled(
-        "share of an area over which its light fades out towards the edges, as in a softbox",
+        "share of an area or a card over which its light fades out towards the edges, as in a softbox",
         0,
         1,
         default=0.0,
     )
-    turn_deg: float = ruled("of an area about its own axis", -360, 360, default=0.0)
+    turn_deg: float = ruled("of an area or a card about its own axis", -360, 360, default=0.0)
 
 
 @dataclass(frozen=True)

@@ -23,15 +23,17 @@ PHOTOGRAPH = Picture(
             (-179.5, 2.7, 460.7),
             4e6,
             size_mm=(183.0, 93.0),
-            turn_deg=0.0,
+            turn_deg=76.4,
         ),
+        # Low at the left: only the rounded rim sends its light on to the camera.
+        Light("CARD", (-420.0, 60.0, 110.0), 4e5, size_mm=(500.0, 120.0)),
     ),
     Camera(
         position_mm=(4.0, -319.8, 204.8),
-        target_mm=(-33.0, -55.0, 29.2),
+        target_mm=(-37.5, -23.4, 8.3),
         lens_mm=93.16,
         roll_deg=2.1,
-        f_stop=8.0,
+        f_stop=45.0,
     ),
     {
         "model": "PHYSICAL",
@@ -41,6 +43,6 @@ PHOTOGRAPH = Picture(
         "Roughness": 0.061,
     },
     wafer="bar-memory",
-    view=View("Standard", "None", gamma=0.81),
+    view=View("Standard", "None", exposure=0.1, gamma=0.81),
     render=Render((1024, 682), 64, bounces=1),
 )

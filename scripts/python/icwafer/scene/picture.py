@@ -3,27 +3,40 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import bpy
 
 from icwafer.chips.die import generate
+from icwafer.chips.presets import PRESETS
 from icwafer.pictures import Picture
 from icwafer.scene.camera import camera_object
 from icwafer.scene.lamps import lamp
 from icwafer.scene.material import expect_node, wafer_material
 from icwafer.scene.mesh import die_mesh
+from icwafer.scene.parts import parts
 from icwafer.scene.render import set_render, set_view
+from icwafer.scene.studio import table_object
+from icwafer.scene.wafer import add_wafer
 from icwafer.scene.world import world
 
 
 def build(picture: Picture) -> bpy.types.Scene:
-    """An otherwise empty scene with the picture's die, lamps and camera, ready to render.
+    """An otherwise empty scene with the picture's die or wafer, lamps and camera, ready to render.
 
     Raises IcwaferError in a Blender without the node.
     """
     scene = empty_scene()
-    die = bpy.data.objects.new("Die", die_mesh(generate(picture.die)))
-    die.data.materials.append(wafer_material(picture.node))
-    scene.collection.objects.link(die)
+    if picture.wafer:
+        ready = PRESETS[picture.wafer]
+        layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
+        add_wafer(layout, scene.collection, parts(picture.node))
+    else:
+        die = bpy.data.objects.new("Die", die_mesh(generate(picture.die)))
+        die.data.materials.append(wafer_material(picture.node))
+        scene.collection.objects.link(die)
+    if picture.table.size_mm:
+        scene.collection.objects.link(table_object(picture.table))
     for light in picture.lights:
         scene.collection.objects.link(lamp(light))
     scene.camera = camera_object(picture.camera)

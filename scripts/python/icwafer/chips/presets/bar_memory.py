@@ -16,30 +16,34 @@ from icwafer.chips.spread import Normal
 from icwafer.chips.tree import Cut, Macro, Node, Part, Ring, Tiles
 from icwafer.chips.wafer import Drift, Wafer
 
-_OXIDE_NM = Normal(573.0, 1.0)
-_GROOVE_NM = Normal(492.0, 1.0)
+_GROOVE_NM = 291.0
 
 
 def _wires(
-    name: str, kind: Kind, spacing_nm: float, duty: float, variation: float = 0.0, turned: float = 0.0
+    name: str,
+    kind: Kind,
+    spacing_nm: float,
+    duty: float,
+    oxide_nm: float = 163.0,
+    variation: float = 0.004,
+    diffraction: float = 1.0,
 ) -> Group:
-    """Blocks of equal wires, width as a share of the spacing."""
+    """Blocks of equal wires. duty: width as a share of the spacing."""
     return Group(
         name,
         kind,
         spacing_nm=Normal(spacing_nm),
         width_nm=Normal(round(duty * spacing_nm, 1)),
-        oxide_nm=_OXIDE_NM,
+        oxide_nm=Normal(oxide_nm),
+        diffraction=Normal(diffraction),
         spacing_variation=Normal(variation),
-        groove_nm=_GROOVE_NM,
-        turned=turned,
+        groove_nm=Normal(_GROOVE_NM),
     )
 
 
-#: Without a pattern: wires so thin that they diffract nothing.
-_BARE = Group(
-    "bare", Kind.STRIP, Normal(1000.0), Normal(1.0), _OXIDE_NM, diffraction=Normal(0.0)
-)
+#: Wires that are next to nothing, a mirror under oxide; and metal of many periods, pale.
+_BARE = _wires("bare", Kind.STRIP, 1000.0, 0.001)
+_LANE_METAL = _wires("lane", Kind.SEAL, 2100.0, 0.3, variation=0.3)
 _STRIP = Macro(Kind.STRIP)
 _LANE = Macro(Kind.SEAL)
 
@@ -75,7 +79,7 @@ def _with_lanes(inside: Node, um: float) -> Cut:
     return Cut(1, (Part(_LANE, um=um), Part(inside), Part(_LANE, um=um)))
 
 
-TREE = _with_lanes(_BARS, 45.0)
+TREE = _with_lanes(_BARS, 60.0)
 
 PRODUCT = DieSpec(
     name="bar-memory",
@@ -85,10 +89,10 @@ PRODUCT = DieSpec(
     height_mm=4.84,
     block_um=150.0,
     groups=(
-        _wires("cells", Kind.MEMORY, 1300.0, 0.4),
-        _wires("amplifiers", Kind.BUS, 1410.0, 0.35, variation=0.02),
-        _wires("pads", Kind.IO, 5200.0, 0.3, variation=0.3),
-        _wires("lane", Kind.SEAL, 2600.0, 0.4, variation=0.3),
+        _wires("cells", Kind.MEMORY, 1628.0, 0.224),
+        _wires("amplifiers", Kind.BUS, 1760.0, 0.224),
+        _wires("pads", Kind.IO, 5200.0, 0.3, variation=0.3, diffraction=0.3),
+        _LANE_METAL,
         _BARE,
     ),
 )
@@ -127,25 +131,31 @@ TEST_TREE = Cut(
     ),
 )
 
-_ARRAYS = {"a": 1180.0, "b": 1120.0, "c": 1480.0}
+#: Spacing, duty cycle, oxide, variation.
+_ARRAYS = {
+    "a": (2440.0, 0.18, 386.0, 0.02),
+    "b": (2331.0, 0.19, 119.0, 0.02),
+    "c": (2210.0, 0.18, 533.0, 0.1),
+}
+_CIRCUIT = (2328.0, 0.17, 387.0, 0.15)
 
 TEST = DieSpec(
     name="bar-memory-test",
     floorplan="bar-memory-test",
-    seed=1,
+    seed=11,
     width_mm=12.2,
     height_mm=24.5,
     block_um=220.0,
     groups=(
         *(
-            _wires(f"array {name}{part}", Kind.FILL, factor * spacing, 0.4, variation=0.02)
-            for name, spacing in _ARRAYS.items()
-            for part, factor in (("", 1.0), (" frame", 0.97))
+            _wires(f"array {name}{part}", Kind.FILL, *wires, share)
+            for name, wires in _ARRAYS.items()
+            for part, share in (("", 0.85), (" frame", 0.45))
         ),
-        _wires("circuit frame", Kind.FILL, 1520.0, 0.4, variation=0.05),
-        _wires("logic", Kind.LOGIC, 1500.0, 0.4, variation=0.06),
-        _wires("analog", Kind.ANALOG, 1140.0, 0.4, variation=0.03),
-        _wires("lane", Kind.SEAL, 2600.0, 0.4, variation=0.3),
+        _wires("circuit frame", Kind.FILL, *_CIRCUIT),
+        _wires("logic", Kind.LOGIC, *_CIRCUIT, 0.8),
+        _wires("analog", Kind.ANALOG, *_ARRAYS["b"], 0.7),
+        _LANE_METAL,
         _BARE,
     ),
 )
