@@ -4,4 +4,4 @@
 from __future__ import annotations
 
 #: Each kind has a module of that name in icwafer.scene.library, and a file of that name.
-KINDS = ("materials", "dies", "wafers", "lights")
+KINDS = ("materials", "dies", "wafers", "lights", "studios")

@@ -27,14 +27,7 @@ def build(picture: Picture) -> bpy.types.Scene:
     Raises IcwaferError in a Blender without the node.
     """
     scene = empty_scene()
-    if picture.wafer:
-        ready = PRESETS[picture.wafer]
-        layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
-        add_wafer(layout, scene.collection, parts(picture.node))
-    else:
-        die = bpy.data.objects.new("Die", die_mesh(generate(picture.die)))
-        die.data.materials.append(wafer_material(picture.node))
-        scene.collection.objects.link(die)
+    add_subject(picture, scene.collection)
     if picture.table.size_mm:
         scene.collection.objects.link(table_object(picture.table))
     for light in picture.lights:
@@ -45,6 +38,18 @@ def build(picture: Picture) -> bpy.types.Scene:
     set_render(scene, picture.render)
     set_view(scene, picture.view)
     return scene
+
+
+def add_subject(picture: Picture, collection: bpy.types.Collection) -> bpy.types.Object:
+    """Links the picture's die or wafer, in mm around the origin, to a collection."""
+    if picture.wafer:
+        ready = PRESETS[picture.wafer]
+        layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
+        return add_wafer(layout, collection, parts(picture.node))
+    die = bpy.data.objects.new("Die", die_mesh(generate(picture.die)))
+    die.data.materials.append(wafer_material(picture.node))
+    collection.objects.link(die)
+    return die
 
 
 def check(picture: Picture) -> None:

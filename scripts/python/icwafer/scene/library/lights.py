@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The library's lamps, placed around a thing of two units in the middle of the scene."""
+"""The library's lamps and its empty studio, placed around a thing of two units in the middle of the scene."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from pathlib import Path
 
 import bpy
 
-from icwafer.pictures import Light
+from icwafer.pictures import Light, Table
 from icwafer.scene.lamps import lamp
 from icwafer.scene.library.asset import Asset
 from icwafer.scene.library.dies import sample_die
 from icwafer.scene.library.stage import LAMPS
+from icwafer.scene.studio import table_object
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,8 @@ class Rig:
     name: str
     description: str
     lights: tuple[Light, ...]
+    catalog: str = "Lights"
+    table: Table = Table()
 
 
 _TUBE = (0.15, 6.0)
@@ -64,6 +67,19 @@ RIGS = (
             for k in range(8)
         ),
     ),
+    Rig(
+        "Empty Studio",
+        "A dark table, a softbox that mirrors in the wafer, strips for the edges and a small lamp "
+        "for the colours; put a thing of three units on it",
+        (
+            Light("POINT", (3.2, 0.8, 4.6), 500, radius_mm=0.15),
+            Light("AREA", (-1.5, 5.0, 3.5), 150, size_mm=(5.0, 2.5), fade=0.6),
+            Light("AREA", (-4.5, -0.5, 1.5), 60, size_mm=(0.3, 4.0), fade=0.3),
+            Light("AREA", (4.5, 1.0, 1.0), 40, size_mm=(0.3, 4.0), fade=0.3),
+        ),
+        catalog="Studios",
+        table=Table(size_mm=12.0, depth_mm=0.03),
+    ),
 )
 
 
@@ -79,7 +95,9 @@ def assets(_sources: Path, wires_rad: float) -> Iterator[Asset]:
             thing = lamp(light)
             thing.name = thing.data.name = rig.name
             collection.objects.link(thing)
-        yield Asset(collection, "Lights", rig.description, partial(_show, subject, collection))
+        if rig.table.size_mm:
+            collection.objects.link(table_object(rig.table))
+        yield Asset(collection, rig.catalog, rig.description, partial(_show, subject, collection))
 
 
 def _show(

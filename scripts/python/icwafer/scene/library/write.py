@@ -65,6 +65,7 @@ def _wires_in_new_scene_rad(scene: bpy.types.Scene) -> float:
 
 
 def _photograph(scene: bpy.types.Scene, asset: Asset) -> None:
+    camera = scene.camera
     before = [set(links) for links in (scene.collection.objects, scene.collection.children)]
     asset.pose(scene)
     render_preview(scene, asset.id)
@@ -74,6 +75,7 @@ def _photograph(scene: bpy.types.Scene, asset: Asset) -> None:
             links.unlink(thing)
         for thing in kept - now:
             links.link(thing)
+    scene.camera = camera
 
 
 def _progress_without_cycles() -> Callable[[int, int, str], None]:
