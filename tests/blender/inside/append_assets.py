@@ -10,6 +10,7 @@ an instance in the middle, as the asset browser makes it, alone or, if it brings
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 from typing import Any
 
@@ -62,7 +63,7 @@ def preview_facts(asset: bpy.types.ID) -> dict[str, Any]:
         "size": list(preview.image_size),
         "brightest": float(shown.max()),
         "deviation": float(shown.std()),
-        "digest": hash(pixels.tobytes()),
+        "digest": hashlib.sha256(pixels.tobytes()).hexdigest(),
     }
 
 

@@ -28,7 +28,7 @@ def installed_folder() -> Path:
     return paths.INSTALLED / version / "datafiles" / "icwafer"
 
 
-def check_sources(folder: Path = SOURCES) -> None:
+def check_sources(folder: Path) -> None:
     """Raises IcwaferError for the first mistake in the table of materials or the catalogs."""
     known = catalogs.read_catalogs(folder / catalogs.FILE_NAME)
     for preset in materials.read_materials(folder / materials.FILE_NAME, check):
@@ -45,7 +45,7 @@ def build() -> list[Path]:
     Raises IcwaferError where Blender is not built, or for a mistake in the sources.
     """
     render.expect_blender()
-    check_sources()
+    check_sources(SOURCES)
     BUILT.mkdir(parents=True, exist_ok=True)
     files = [_build_kind(kind) for kind in KINDS]
     return [_install(file) for file in (*sorted(SOURCES.iterdir()), *files)]

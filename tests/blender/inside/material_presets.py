@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Takes presets for an object as the menu in the material's properties does.
+
+The report has the menu's presets; after each preset the node's values; and what happens to a
+material with other nodes, to one with links, and to an object without a material.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+from exchange import report
+from wafer_scene import NODE
+
+
+def cube() -> bpy.types.Object:
+    return bpy.data.objects["Cube"]
+
+
+def node() -> bpy.types.Node:
+    """The node whose output is the surface of the cube's material."""
+    output = cube().active_material.node_tree.get_output_node("CYCLES")
+    return output.inputs["Surface"].links[0].from_node
+
+
+def values(wafer: bpy.types.Node) -> dict[str, Any]:
+    names = ("model", "metal", "oxide", "illuminant")
+    found: dict[str, Any] = {name: getattr(wafer, name) for name in names}
+    for socket in wafer.inputs:
+        if socket.type == "VALUE":
+            found[socket.name] = socket.default_value
+    return found
+
+
+def take(preset: str) -> None:
+    bpy.ops.material.ic_wafer_preset(preset=preset)
+
+
+def main() -> None:
+    operator = bpy.ops.material.ic_wafer_preset.get_rna_type()
+    presets = [item.identifier for item in operator.properties["preset"].enum_items]
+    facts: dict[str, Any] = {"presets": presets}
+
+    before = {n.name for n in cube().active_material.node_tree.nodes}
+    take("SRAM")
+    facts["nodes kept"] = before <= {n.name for n in cube().active_material.node_tree.nodes}
+    facts["values"] = {}
+    for preset in presets:
+        take(preset)
+        wafer = node() if node().bl_idname == NODE else None
+        facts["values"][preset] = values(wafer) if wafer else None
+
+    cube().data.materials.clear()
+    take("Compact Disc")
+    facts["new material"] = cube().active_material.name
+    round_tracks = [bool(node().inputs["Tangent"].links)]
+    for preset in ("Copper", "SRAM"):
+        take(preset)
+        round_tracks.append(bool(node().inputs["Tangent"].links))
+    facts["round tracks"] = round_tracks
+
+    tree = cube().active_material.node_tree
+    driver = tree.nodes.new("ShaderNodeValue")
+    for socket in ("Wire Spacing", "Direction"):
+        tree.links.new(driver.outputs[0], node().inputs[socket])
+    take("Copper")
+    facts["links after a metal"] = bool(node().inputs["Wire Spacing"].links)
+    take("DRAM")
+    facts["links after wires"] = [
+        bool(node().inputs[socket].links) for socket in ("Wire Spacing", "Direction")
+    ]
+    report(facts)
+
+
+main()
