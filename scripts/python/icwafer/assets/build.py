@@ -12,7 +12,7 @@ from pathlib import Path
 
 from icwafer import dependencies, paths, progress, render
 from icwafer.assets import catalogs, materials
-from icwafer.assets.plan import KINDS
+from icwafer.assets.plan import KINDS, installed_folder
 from icwafer.errors import IcwaferError
 from icwafer.files import replacing
 from icwafer.study.fields import check
@@ -20,12 +20,6 @@ from icwafer.study.fields import check
 SOURCES = paths.REPOSITORY / "blend_assets" / "library"
 BUILT = paths.BUILD / "assets"
 SCRIPT = paths.REPOSITORY / "scripts" / "python" / "icwafer" / "scene" / "library" / "write.py"
-
-
-def installed_folder() -> Path:
-    """Where the built Blender has the library; the add-on shows it in the asset browser."""
-    version = paths.host_version().rpartition(".")[0]
-    return paths.INSTALLED / version / "datafiles" / "icwafer"
 
 
 def check_sources(folder: Path) -> None:

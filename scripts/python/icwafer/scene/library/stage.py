@@ -26,7 +26,7 @@ LIGHTS = (
     Light("AREA", (-2.8, -3.6, 2.2), 120, size_mm=(1.2, 4.0)),
 )
 LAMPS = "Lamps of the stage"
-SURROUNDINGS = Environment(strength=0.2)
+SURROUNDINGS = Environment(strength=0.08)
 
 
 def stage(size: int, samples: int) -> bpy.types.Scene:
