@@ -41,13 +41,20 @@ def build(picture: Picture) -> bpy.types.Scene:
 
 
 def add_subject(picture: Picture, collection: bpy.types.Collection) -> bpy.types.Object:
-    """Links the picture's die or wafer, in mm around the origin, to a collection."""
+    """Links the picture's wafer or die, in mm around the origin, to a collection."""
     if picture.wafer:
         ready = PRESETS[picture.wafer]
         layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
         return add_wafer(layout, collection, parts(picture.node))
-    die = bpy.data.objects.new("Die", die_mesh(generate(picture.die)))
-    die.data.materials.append(wafer_material(picture.node))
+    # On a table a die has the ground between its blocks.
+    on_table = picture.table.size_mm > 0
+    die = bpy.data.objects.new("Die", die_mesh(generate(picture.die), ground=on_table))
+    if on_table:
+        materials = parts(picture.node)
+        die.data.materials.append(materials.blocks)
+        die.data.materials.append(materials.ground)
+    else:
+        die.data.materials.append(wafer_material(picture.node))
     collection.objects.link(die)
     return die
 

@@ -43,7 +43,7 @@ def _wires(
 
 #: Wires that are next to nothing, a mirror under oxide; and metal of many periods, pale.
 _BARE = _wires("bare", Kind.STRIP, 1000.0, 0.001)
-_LANE_METAL = _wires("lane", Kind.SEAL, 2100.0, 0.3, variation=0.3)
+_LANE_METAL = _wires("lane", Kind.SEAL, 2900.0, 0.42, variation=0.05)
 _STRIP = Macro(Kind.STRIP)
 _LANE = Macro(Kind.SEAL)
 
@@ -52,9 +52,9 @@ _BAR = Tiles(
     Cut(
         1,
         (
-            Part(Macro(Kind.MEMORY), 0.84),
-            Part(_STRIP, 0.06),
-            Part(Macro(Kind.BUS), 0.10),
+            Part(Macro(Kind.MEMORY), 0.85),
+            Part(_STRIP, 0.05),
+            Part(Macro(Kind.BUS), (0.09, 0.11)),
         ),
     ),
     columns=1,
@@ -79,7 +79,7 @@ def _with_lanes(inside: Node, um: float) -> Cut:
     return Cut(1, (Part(_LANE, um=um), Part(inside), Part(_LANE, um=um)))
 
 
-TREE = _with_lanes(_BARS, 60.0)
+TREE = _with_lanes(_BARS, 80.0)
 
 PRODUCT = DieSpec(
     name="bar-memory",

@@ -25,7 +25,12 @@ from icwafer.scene.picture import add_subject
 from icwafer.scene.studio import table_object
 
 #: The pictures, and what their scenes are called.
-SCENES = {"photograph": "After a Photograph"}
+SCENES = {
+    "photograph": "After a Photograph",
+    "wafer_studio": "Wafer Studio",
+    "wafer_fluorescent": "Fluorescent Studio",
+    "die_studio": "Die Studio",
+}
 
 
 def assets(_sources: Path, _wires_rad: float) -> Iterator[Asset]:
