@@ -28,7 +28,11 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
     command.add_argument(
         "-o", "--output", type=Path, metavar="PICTURE", help="default: FILE's name with .png"
     )
-    command.add_argument("--wafer", action="store_true", help="show a wafer full of it")
+    command.add_argument(
+        "--wafer",
+        action="store_true",
+        help="show a wafer full of it; chips below 6 mm are enlarged",
+    )
     command.add_argument(
         "--size", type=_size, default=(1920, 1080), metavar="WIDTHxHEIGHT", help="1920x1080"
     )

@@ -19,7 +19,7 @@ from icwafer.portrait.order import Order  # noqa: E402
 from icwafer.scene import image  # noqa: E402
 from icwafer.scene.portrait import build  # noqa: E402
 
-#: The exposure is such that this share of what is lit is darker than `BRIGHT` of full light.
+#: The lamps are such that this share of what is lit is darker than `BRIGHT` of full light.
 LIT_SHARE = 0.90
 BRIGHT = 0.8
 #: A picture of this share of the size, with this many samples, decides that.
@@ -31,14 +31,17 @@ def render(order: Order) -> None:
     scene = build(order)
     folder = Path(order.png).parent
     image.expect_space(folder, order.size)
-    scene.view_settings.exposure = _exposure(scene, folder)
+    # The lamps, not the view: the renderer's threshold of noise is for this brightness.
+    gain = _gain(scene, folder)
+    for lamp in bpy.data.lights:
+        lamp.energy *= gain
     bpy.ops.render.render()
     for path in filter(None, (order.png, order.exr)):
         image.save(scene, Path(path))
 
 
-def _exposure(scene: bpy.types.Scene, folder: Path) -> float:
-    """In stops, from a small proof."""
+def _gain(scene: bpy.types.Scene, folder: Path) -> float:
+    """What the lamps' power must be multiplied with, from a small proof."""
     size, samples = scene.render.resolution_percentage, scene.cycles.samples
     proof = folder / "proof.exr"
     scene.render.resolution_percentage = 100 // PROOF_SHARE
@@ -49,7 +52,7 @@ def _exposure(scene: bpy.types.Scene, folder: Path) -> float:
     light = _brightest_channel(proof)
     proof.unlink()
     lit = light[light > 0.02 * np.percentile(light, 95)]
-    return float(np.log2(BRIGHT / np.percentile(lit, 100 * LIT_SHARE))) if len(lit) else 0.0
+    return float(BRIGHT / np.percentile(lit, 100 * LIT_SHARE)) if len(lit) else 1.0
 
 
 def _brightest_channel(path: Path) -> np.ndarray:

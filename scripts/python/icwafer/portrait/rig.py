@@ -98,7 +98,7 @@ def rig(
             (along_y, spacing_nm[1], 6000.0),
         )
     ]
-    return Rig(camera, (*keys, *_accents(to_camera)))
+    return Rig(camera, (*keys, _sheen(to_camera)))
 
 
 def direction_to_lamp(
@@ -128,15 +128,12 @@ def _key(
     return _softbox(direction, along_wires, (1.1 * distance, 0.22 * distance), power_w)
 
 
-def _accents(to_camera: np.ndarray) -> tuple[Light, ...]:
-    """A dim, large softbox behind the subject, for a sheen on bare metal, and a point that sparkles."""
-    mirror = to_camera * [-1.0, -1.0, 1.0]
-    low = mirror + [0.25, 0.0, -0.42]
-    low /= np.linalg.norm(low)
+def _sheen(to_camera: np.ndarray) -> Light:
+    """A dim, large softbox low behind the subject, which bare metal and the table reflect."""
+    low = to_camera * [-1.0, -1.0, 1.0] + [0.25, 0.0, -0.42]
     distance = _DISTANCE * SIZE_MM
-    sheen = _softbox(low, np.array([1.0, 0.0, 0.0]), (1.4 * distance, 0.5 * distance), 150.0)
-    place = np.array([-0.55, -0.25, 0.9]) * distance
-    return sheen, Light("POINT", tuple(place.tolist()), 1500.0, radius_mm=0.012 * distance)
+    size = (1.4 * distance, 0.5 * distance)
+    return _softbox(low / np.linalg.norm(low), np.array([1.0, 0.0, 0.0]), size, 150.0)
 
 
 def _softbox(

@@ -8,10 +8,8 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-
 from icwafer.chips.document import ENDING, read_layout
-from icwafer.chips.model import MM, BlockTable, DieSpec, Layout, size_nm
+from icwafer.chips.model import BlockTable, DieSpec, Layout
 from icwafer.chips.presets.parts import drifting_wafer
 from icwafer.errors import IcwaferError
 from icwafer.layout_import.importer import import_layout
@@ -22,9 +20,8 @@ from icwafer.portrait.wires import Wires, read_wires
 
 #: Endings of the files that are imported.
 CHIPS = (".gds", ".gds.gz", ".oas", ".def")
-#: Sides of a wafer's dies: of what is smaller, several make a die, in at most so many blocks.
-_SMALLEST_MM = 5.0
-_MOST_BLOCKS = 200_000
+#: The longer side of a wafer's dies: nothing could be seen of smaller ones.
+_SMALLEST_MM = 6.0
 
 
 @dataclass(frozen=True)
@@ -65,28 +62,21 @@ def _metal(process: Process) -> str:
 
 
 def _with_wafer(layout: Layout) -> Layout:
-    """The layout, with a usual wafer if it has none; small chips stand side by side in its dies."""
+    """The layout, with a usual wafer if it has none; then small chips are shown enlarged."""
     if layout.wafer is not None:
         return layout
     die = layout.dies[0]
     if die.blocks is not None:
-        die = _repeated(die, die.blocks)
+        die = _enlarged(die, die.blocks)
     return dataclasses.replace(layout, dies=(die,), wafer=drifting_wafer(partial_dies=True))
 
 
-def _repeated(die: DieSpec, blocks: BlockTable) -> DieSpec:
-    """As many copies as a die of `_SMALLEST_MM` needs."""
-    size = size_nm(die)
-    columns, rows = (math.ceil(_SMALLEST_MM * MM / side) for side in size)
-    while columns * rows * len(blocks) > _MOST_BLOCKS:
-        columns, rows = max(1, columns // 2), max(1, rows // 2)
-        if columns == rows == 1:
-            break
-    place = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1).reshape(-1, 1, 2)
-    rects = blocks.rect_nm + np.tile(place * np.array(size), 2)
+def _enlarged(die: DieSpec, blocks: BlockTable) -> DieSpec:
+    """Of `_SMALLEST_MM` or more, the wires unchanged."""
+    factor = math.ceil(_SMALLEST_MM / max(die.width_mm, die.height_mm))
     return dataclasses.replace(
         die,
-        width_mm=die.width_mm * columns,
-        height_mm=die.height_mm * rows,
-        blocks=BlockTable(rects.reshape(-1, 4), np.tile(blocks.group, len(place))),
+        width_mm=die.width_mm * factor,
+        height_mm=die.height_mm * factor,
+        blocks=BlockTable(blocks.rect_nm * factor, blocks.group),
     )

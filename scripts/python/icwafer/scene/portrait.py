@@ -54,7 +54,9 @@ def build(order: Order) -> bpy.types.Scene:
     scene.collection.objects.link(scene.camera)
     scene.world = bpy.data.worlds.new("Dark")
     scene.world.color = (0.002, 0.002, 0.0022)
-    set_render(scene, Render(order.size, order.samples, bounces=2))
+    set_render(scene, Render(order.size, order.samples, bounces=1))
+    scene.cycles.use_adaptive_sampling = True  # most of the picture is dark
+    scene.cycles.adaptive_threshold = 0.02
     set_view(scene, View())
     return scene
 
