@@ -44,7 +44,7 @@ class MESH_OT_ic_die_add(ChipOptions, PlacingOptions, bpy.types.Operator):
 
     bl_idname = "mesh.ic_die_add"
     bl_label = "IC Die"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -140,7 +140,7 @@ class MESH_OT_ic_wafer_add(ChipOptions, WaferOptions, PlacingOptions, bpy.types.
 
     bl_idname = "mesh.ic_wafer_add"
     bl_label = "IC Wafer"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

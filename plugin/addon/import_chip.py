@@ -49,7 +49,7 @@ class IMPORT_SCENE_OT_ic_chip(WaferOptions, PlacingOptions, ImportHelper, bpy.ty
 
     bl_idname = "import_scene.ic_chip"
     bl_label = "Import Chip Layout"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    bl_options = {"REGISTER", "UNDO"}
 
     filter_glob: StringProperty(
         default="*.gds;*.gds.gz;*.gds2;*.oas;*.def;*.lef;*.toml", options={"HIDDEN"}
