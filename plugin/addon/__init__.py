@@ -42,7 +42,7 @@ _CLASSES = (
     attributes_panel.DATA_PT_ic_attributes,
     *material_presets.CLASSES,
 )
-_PARTS = (menus, asset_library)
+_PARTS = (menus, asset_library, material_presets)
 
 
 def register():

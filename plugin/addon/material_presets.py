@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Material presets, by process and by metal: Properties > Material > IC Wafer.
+"""Material presets, by process and by metal: Properties > Material > IC Wafer, and the menu of the
+material slots.
 
 They are the materials of the asset library; one table is the source of both.
 """
@@ -84,7 +85,9 @@ class MATERIAL_MT_ic_wafer_presets(bpy.types.Menu):
         columns = self.layout.row()
         for _, kind in groupby(_presets().values(), lambda preset: preset.catalog.split("/")[1]):
             column = columns.column()
-            for catalog, presets in groupby(kind, lambda preset: preset.catalog):
+            for number, (catalog, presets) in enumerate(groupby(kind, lambda p: p.catalog)):
+                if number:
+                    column.label()
                 column.label(text=catalog.rpartition("/")[2])
                 column.separator()
                 for preset in presets:
@@ -104,6 +107,19 @@ class MATERIAL_PT_ic_wafer(bpy.types.Panel):
 
     def draw(self, _context: bpy.types.Context) -> None:
         self.layout.menu(MATERIAL_MT_ic_wafer_presets.__name__, text="Presets", icon="PRESET")
+
+
+def _draw_entry(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.menu(MATERIAL_MT_ic_wafer_presets.__name__, icon="PRESET")
+
+
+def register() -> None:
+    bpy.types.MATERIAL_MT_context_menu.append(_draw_entry)
+
+
+def unregister() -> None:
+    bpy.types.MATERIAL_MT_context_menu.remove(_draw_entry)
 
 
 CLASSES = (MATERIAL_OT_ic_wafer_preset, MATERIAL_MT_ic_wafer_presets, MATERIAL_PT_ic_wafer)

@@ -52,8 +52,8 @@ class TheTable(unittest.TestCase):
 
     def test_every_kind_that_is_promised_is_there(self) -> None:
         for name in (
-            "Fine Logic", "Standard Cells", "SRAM", "DRAM", "Power Mesh", "Copper", "Aluminium",
-            "Tungsten", "Bare Silicon", "Oxide 300 nm", "Passivated", "Image Sensor",
+            "Fine Logic", "Standard Cells", "SRAM Cells", "DRAM Cells", "Power Mesh", "Copper", "Aluminium",
+            "Tungsten", "Bare Silicon", "Oxide 300 nm", "Passivated", "Sensor Pixels",
         ):  # fmt: skip
             self.assertIn(name, self.presets)
 
@@ -100,7 +100,7 @@ class TheTable(unittest.TestCase):
             ("sky130 met3", metals.SKY130_MET3),
             ("sky130 met4", metals.SKY130_MET4),
             ("sky130 met5", metals.SKY130_MET5),
-            ("SRAM", metals.SKY130_SRAM),
+            ("SRAM Cells", metals.SKY130_SRAM),
             ("Standard Cells", metals.SKY130_ROW),
             ("SG13G2 TopMetal1", metals.IHP_TOP1),
             ("SG13G2 TopMetal2", metals.IHP_TOP2),

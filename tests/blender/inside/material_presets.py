@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Takes presets for an object as the menu in the material's properties does.
 
-The report has the menu's presets; after each preset the node's values; and what happens to a
+Parameters: `presets`, their names. The report has after each preset the node's values; and what happens to a
 material with other nodes, to one with links, and to an object without a material.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-from exchange import report
+from exchange import parameters, report
 from wafer_scene import NODE
 
 
@@ -38,15 +38,11 @@ def take(preset: str) -> None:
 
 
 def main() -> None:
-    operator = bpy.ops.material.ic_wafer_preset.get_rna_type()
-    presets = [item.identifier for item in operator.properties["preset"].enum_items]
-    facts: dict[str, Any] = {"presets": presets}
-
+    facts: dict[str, Any] = {"values": {}}
     before = {n.name for n in cube().active_material.node_tree.nodes}
-    take("SRAM")
+    take("SRAM Cells")
     facts["nodes kept"] = before <= {n.name for n in cube().active_material.node_tree.nodes}
-    facts["values"] = {}
-    for preset in presets:
+    for preset in parameters()["presets"]:
         take(preset)
         wafer = node() if node().bl_idname == NODE else None
         facts["values"][preset] = values(wafer) if wafer else None
@@ -55,7 +51,7 @@ def main() -> None:
     take("Compact Disc")
     facts["new material"] = cube().active_material.name
     round_tracks = [bool(node().inputs["Tangent"].links)]
-    for preset in ("Copper", "SRAM"):
+    for preset in ("Copper", "SRAM Cells"):
         take(preset)
         round_tracks.append(bool(node().inputs["Tangent"].links))
     facts["round tracks"] = round_tracks
@@ -66,7 +62,7 @@ def main() -> None:
         tree.links.new(driver.outputs[0], node().inputs[socket])
     take("Copper")
     facts["links after a metal"] = bool(node().inputs["Wire Spacing"].links)
-    take("DRAM")
+    take("DRAM Cells")
     facts["links after wires"] = [
         bool(node().inputs[socket].links) for socket in ("Wire Spacing", "Direction")
     ]

@@ -15,8 +15,13 @@ from icwafer.scene.library.asset import Asset, posed, show_at, show_collection
 from icwafer.scene.parts import parts
 from icwafer.scene.wafer import add_wafer
 
-#: Presets whose wafers are in the library: of 300, 300, 200 and 150 mm.
-WAFERS = ("eight-core", "dram", "microcontroller", "test-chip")
+#: Presets whose wafers are in the library, of 300, 300, 200 and 150 mm, and what they are called.
+WAFERS = {
+    "eight-core": "Processor",
+    "dram": "DRAM",
+    "microcontroller": "Controller",
+    "test-chip": "Test Chip",
+}
 
 
 def assets(_sources: Path, wires_rad: float) -> Iterator[Asset]:
@@ -25,10 +30,10 @@ def assets(_sources: Path, wires_rad: float) -> Iterator[Asset]:
     wires_rad: direction of wires that catches the light in a new scene.
     """
     materials = parts()
-    for preset in WAFERS:
+    for preset, name in WAFERS.items():
         layout = PRESETS[preset]
         diameter_mm = layout.wafer.diameter_mm
-        title = f"{diameter_mm:g} mm {TITLES[preset][0]}"
+        title = f"{diameter_mm:g} mm {name}"
         # A wafer is made in a collection; it moves from there into its own.
         workshop = bpy.data.collections.new("Workshop")
         wafer = add_wafer(layout, workshop, materials, title)
