@@ -80,7 +80,8 @@ def _fingerprint(kind: str) -> str:
     digest = hashlib.sha256()
     for script in (SCRIPT, SCRIPT.with_name(f"{kind}.py")):
         digest.update(dependencies.scripts_hash(script).encode())
-    for file in (*sorted(SOURCES.iterdir()), paths.BLENDER):
+    tables = [catalogs.FILE_NAME, *([materials.FILE_NAME] if kind == "materials" else [])]
+    for file in (*(SOURCES / table for table in tables), paths.BLENDER):
         digest.update(dependencies.file_hash(file).encode())
     return digest.hexdigest()
 
