@@ -23,6 +23,8 @@ SIZE_MM = 10.0
 #: The middle of the picture sees this wavelength, in the order whose u is nearest to `_USUAL_U`.
 _MIDDLE_NM = 550.0
 _USUAL_U = 0.55
+#: Sine of the largest angle between the surface's normal and a lamp.
+_LOWEST_LAMP = 0.94
 #: Lamps stand this many sizes away.
 _DISTANCE = 3.0
 
@@ -114,8 +116,9 @@ def direction_to_lamp(
     u = min(order * _MIDDLE_NM / spacing_nm, 0.8)
     seen = float(to_camera @ across)
     sideways = min((u - seen, -u - seen), key=abs)
-    flat = sideways * across - float(to_camera @ along_wires) * along_wires
-    flat *= min(1.0, 0.94 / max(np.linalg.norm(flat), 1e-9))
+    behind = -float(to_camera @ along_wires)
+    most = math.sqrt(_LOWEST_LAMP**2 - behind**2)
+    flat = float(np.clip(sideways, -most, most)) * across + behind * along_wires
     return flat + [0.0, 0.0, math.sqrt(1.0 - flat @ flat)]
 
 
@@ -125,7 +128,7 @@ def _key(
     """A softbox that shows the wires of one direction."""
     direction = direction_to_lamp(to_camera, along_wires, spacing_nm)
     distance = _DISTANCE * SIZE_MM
-    return _softbox(direction, along_wires, (1.1 * distance, 0.22 * distance), power_w)
+    return _softbox(direction, along_wires, (1.1 * distance, 0.4 * distance), power_w)
 
 
 def _sheen(to_camera: np.ndarray) -> Light:

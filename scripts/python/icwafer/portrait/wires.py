@@ -15,10 +15,14 @@ import numpy as np
 
 from icwafer.layout_import.importer import Imported
 from icwafer.layout_import.optics import Finding
+from icwafer.layout_import.process import Process
 from icwafer.layout_import.reader import Request, read_solids
 
 #: What a picture can show and a renderer hold; larger chips are shown as blocks.
 MOST_SOLIDS = 600_000
+#: Share of the light that rows of cells diffract, and how deep they are.
+CELLS = 0.35
+CELL_GROOVE_NM = 150.0
 #: Wires without a grating.
 _NONE = {"spacing_nm": 1000.0, "width_nm": 400.0, "direction_rad": 0.0, "diffraction": 0.0}
 
@@ -80,6 +84,7 @@ def read_wires(request: Request, imported: Imported) -> Wires | None:
                 attributes,
             )
         )
+    parts.append(_cells(imported, request.process))
     return Wires(
         *(
             np.concatenate([getattr(part, name) for part in parts])
@@ -90,6 +95,23 @@ def read_wires(request: Request, imported: Imported) -> Wires | None:
             for name in parts[0].attributes
         },
     )
+
+
+def _cells(imported: Imported, process: Process) -> Wires:
+    """What is seen between the wires: the rows of cells, with the period of the lowest wires."""
+    everything = [finding for findings in imported.findings.values() for finding in findings]
+    lowest = max((finding.layer for finding in everything), default=0)
+    rows = [finding for finding in everything if finding.layer == lowest]
+    half = np.array(imported.chip.size_um) / 2
+    corners = half * np.array([[(-1, -1), (-1, 1), (1, 1), (1, -1)]])
+    look = _look(_strongest(rows)) | {
+        "diffraction": CELLS,
+        "oxide_nm": process.oxide_nm(process.layers[-1]),
+        "groove_nm": CELL_GROOVE_NM,
+    }
+    top_um = np.array([-0.2])
+    attributes = {name: np.array([value]) for name, value in look.items()}
+    return Wires(corners, top_um - 0.1, top_um, attributes)
 
 
 def _gratings(imported: Imported, layer: int, corners_um: np.ndarray) -> dict[str, np.ndarray]:
@@ -131,5 +153,5 @@ def _look(finding: Finding | None) -> dict[str, float]:
         "spacing_nm": 1000 * grating.period_um,
         "width_nm": 1000 * grating.duty * grating.period_um,
         "direction_rad": grating.direction_rad,
-        "diffraction": min(1.0, grating.presence),
+        "diffraction": min(1.0, grating.presence) ** 0.5,
     }

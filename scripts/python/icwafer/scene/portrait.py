@@ -11,7 +11,7 @@ import numpy as np
 from icwafer.chips.die import generate
 from icwafer.chips.document import read_layout
 from icwafer.chips.model import Die, Layout
-from icwafer.pictures import Render, View
+from icwafer.pictures import Render, Table, View
 from icwafer.portrait.order import Order
 from icwafer.portrait.rig import SIZE_MM, Pose, rig, spacings_nm
 from icwafer.portrait.wires import Wires
@@ -23,12 +23,17 @@ from icwafer.scene.parts import metal_material, parts
 from icwafer.scene.picture import empty_scene
 from icwafer.scene.polygons import polygon_mesh
 from icwafer.scene.render import set_render, set_view
+from icwafer.scene.studio import table_object
 from icwafer.scene.wafer import add_wafer
 from icwafer.scene.wires import wires_mesh
 
 #: Wires that are seen one by one are plain metal where they belong to no grating.
-WIRE_COLOUR = (0.85, 0.84, 0.82)
-WIRE_ROUGHNESS = 0.28
+WIRE_COLOUR = (0.45, 0.45, 0.44)
+WIRE_ROUGHNESS = 0.22
+#: Their sides stand in the shade of their neighbours.
+SIDE_COLOUR = (0.12, 0.12, 0.12)
+#: Pixels with less noise than this take no more samples: most of a picture is dark.
+NOISE = 0.02
 #: Thickness of a die that was cut out and ground, relative to its longer side.
 BODY = 0.03
 
@@ -54,9 +59,7 @@ def build(order: Order) -> bpy.types.Scene:
     scene.collection.objects.link(scene.camera)
     scene.world = bpy.data.worlds.new("Dark")
     scene.world.color = (0.002, 0.002, 0.0022)
-    set_render(scene, Render(order.size, order.samples, bounces=1))
-    scene.cycles.use_adaptive_sampling = True  # most of the picture is dark
-    scene.cycles.adaptive_threshold = 0.02
+    set_render(scene, Render(order.size, order.samples, noise=NOISE, bounces=1))
     set_view(scene, View())
     return scene
 
@@ -68,7 +71,7 @@ def _add_wafer(
     diameter = float(layout.wafer.diameter_mm)
     pose = Pose(turn_deg=0.0, polar_deg=50.0, fill=0.92, lens_mm=55.0)
     _place(wafer, diameter, pose)
-    _add_table(scene, 0.003 * SIZE_MM)
+    _add_table(scene, 0.003)
     return (diameter, diameter), pose
 
 
@@ -85,7 +88,7 @@ def _add_die(scene: bpy.types.Scene, die: Die, order: Order) -> tuple[tuple[floa
     if order.wires:
         mesh = wires_mesh(Wires.read(Path(order.wires)))
         mesh.materials.append(chip_material("Wires", order.node, WIRE_COLOUR, WIRE_ROUGHNESS))
-        mesh.materials.append(metal_material("Wire Sides", WIRE_COLOUR, WIRE_ROUGHNESS))
+        mesh.materials.append(metal_material("Wire Sides", SIDE_COLOUR, WIRE_ROUGHNESS))
         ground_mm = -0.0005
     else:
         mesh = die_mesh(die, min(GAP_NM, 1e6 * longer / 2000), ground=True)
@@ -98,7 +101,7 @@ def _add_die(scene: bpy.types.Scene, die: Die, order: Order) -> tuple[tuple[floa
         placed = bpy.data.objects.new(thing.name, thing)
         scene.collection.objects.link(placed)
         _place(placed, longer, pose)
-    _add_table(scene, BODY * SIZE_MM * 1.02)
+    _add_table(scene, BODY)
     return extent_mm, pose
 
 
@@ -118,9 +121,7 @@ def _box_mesh(
     return polygon_mesh(name, points, [around[None], sides])
 
 
-def _add_table(scene: bpy.types.Scene, depth_mm: float) -> None:
-    side = 40 * SIZE_MM
-    corners = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]) * side
-    mesh = polygon_mesh("Table", corners - [0, 0, depth_mm], [np.arange(4)[None]])
-    mesh.materials.append(metal_material("Table", (0.006, 0.006, 0.007), 0.25))
-    scene.collection.objects.link(bpy.data.objects.new("Table", mesh))
+def _add_table(scene: bpy.types.Scene, depth: float) -> None:
+    """depth: of the table below the subject's face, relative to `SIZE_MM`."""
+    table = Table(2.2 * SIZE_MM, (0.007, 0.007, 0.008), 0.2, 1.02 * depth * SIZE_MM)
+    scene.collection.objects.link(table_object(table))
