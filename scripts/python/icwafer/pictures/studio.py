@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Wafers and a die in a studio, with the model PHYSICAL.
 
-Softboxes behind and above: the one behind is where a wafer that lies flat mirrors it to the camera,
-so it gives the white band, and to wires that run away from the camera their colours at its sides;
-the one above gives wires that run across the picture their first order.
+Softboxes behind and above. The one behind is where a wafer that lies flat mirrors it to the
+camera, so it gives the white band; the one above gives wires that run across the picture their first order.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ _METAL: dict[str, NodeValue] = {
     "Wire Length": 1.2,
     "Roughness": 0.1,
 }
-_FULL = Render((1920, 1080), 64, noise=0.02, bounces=1)
+_FULL = Render((1920, 1080), 48, noise=0.02, bounces=1)
 
 WAFER = Picture(
     "A 300 mm wafer of memories in a studio.",
@@ -68,7 +67,7 @@ DIE = Picture(
     Camera((6.0, -21.0, 14.0), (0.2, -0.6, 0.0), lens_mm=75.0, f_stop=60.0),
     _METAL,
     table=Table(80.0),
-    view=View(exposure=0.5),
+    view=View(exposure=0.2),
     render=_FULL,
 )
 
