@@ -110,11 +110,13 @@ if(ICWAFER_BUILD STREQUAL "blender")
       ${package}/chips
       ${package}/layout_import
       ${package}/pictures
+      ${package}/portrait
       ${package}/scene
     DESTINATION ${installed_scripts}/modules/icwafer
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE
     PATTERN library EXCLUDE
+    REGEX "/portrait/render[.]py$" EXCLUDE
   )
   install(FILES ${package}/assets/__init__.py ${package}/assets/materials.py
     DESTINATION ${installed_scripts}/modules/icwafer/assets

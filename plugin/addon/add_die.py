@@ -13,6 +13,7 @@ from .placing import PlacingOptions
 
 if TYPE_CHECKING:
     from icwafer.chips.model import DieSpec
+    from icwafer.portrait.wires import Wires
 
 
 def gap_nm(spec: DieSpec) -> float:
@@ -39,7 +40,26 @@ def add_die(
     operator.add_mesh(context, mesh, longest_mm, main_direction_rad(die))
 
 
-class MESH_OT_ic_die_add(ChipOptions, PlacingOptions, bpy.types.Operator):
+def add_wires(
+    operator: PlacingOptions, context: bpy.types.Context, spec: DieSpec, wires: Wires, name: str
+) -> None:
+    """Adds a chip with each of its wires. spec: the same chip as blocks."""
+    from icwafer.chips.die import generate, main_direction_rad
+    from icwafer.scene.material import chip_material
+    from icwafer.scene.parts import metal_material
+    from icwafer.scene.portrait import WIRE_COLOUR, WIRE_ROUGHNESS
+    from icwafer.scene.wires import wires_mesh
+
+    mesh = wires_mesh(wires)
+    mesh.name = name
+    values = operator.node_values()
+    mesh.materials.append(chip_material("Wires", values, WIRE_COLOUR, WIRE_ROUGHNESS))
+    mesh.materials.append(metal_material("Wire Sides", WIRE_COLOUR, WIRE_ROUGHNESS))
+    longest_mm = max(spec.width_mm, spec.height_mm)
+    operator.add_mesh(context, mesh, longest_mm, main_direction_rad(generate(spec)))
+
+
+class MESH_OT_ic_die_add(ChipOptions, bpy.types.Operator):
     """Add a chip: blocks of wires with the colours of diffraction"""
 
     bl_idname = "mesh.ic_die_add"
@@ -63,6 +83,5 @@ class MESH_OT_ic_die_add(ChipOptions, PlacingOptions, bpy.types.Operator):
         layout.use_property_split = True
         layout.use_property_decorate = False
         self.draw_chip(layout)
-        self.draw_look(layout)
         self.draw_place(layout)
         self.draw_groups(layout.column())

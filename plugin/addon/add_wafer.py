@@ -12,7 +12,6 @@ from .add_die import gap_nm
 from .busy import progress
 from .errors import reported
 from .options import ChipOptions
-from .placing import PlacingOptions
 
 if TYPE_CHECKING:
     from icwafer.chips.model import DieSpec, Layout
@@ -135,7 +134,7 @@ class WaferOptions:
         column.prop(self, "wafer_seed")
 
 
-class MESH_OT_ic_wafer_add(ChipOptions, WaferOptions, PlacingOptions, bpy.types.Operator):
+class MESH_OT_ic_wafer_add(ChipOptions, WaferOptions, bpy.types.Operator):
     """Add a wafer full of chips, all of them copies of one die with the drift of their place"""
 
     bl_idname = "mesh.ic_wafer_add"
@@ -168,6 +167,5 @@ class MESH_OT_ic_wafer_add(ChipOptions, WaferOptions, PlacingOptions, bpy.types.
         layout.use_property_decorate = False
         self.draw_chip(layout)
         self.draw_wafer(layout)
-        self.draw_look(layout)
         self.draw_place(layout)
         self.draw_groups(layout.column())

@@ -4,20 +4,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import CollectionProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from .add_die import add_die
+from .add_die import add_die, add_wires
 from .add_wafer import WaferOptions
 from .busy import progress
 from .errors import reported
 from .placing import PlacingOptions
 
 if TYPE_CHECKING:
-    from icwafer.chips.model import Layout
+    from icwafer.portrait.subject import Subject
 
 #: The command's options, as messages name them, and what they are called here.
 _NAMES = {
@@ -60,7 +60,9 @@ class IMPORT_SCENE_OT_ic_chip(WaferOptions, PlacingOptions, ImportHelper, bpy.ty
         name="Make",
         description="What to make of the chip",
         items=[
-            ("DIE", "Die", "One chip"),
+            ("DIE", "Die", "One chip, as blocks with the wires that are found in each"),
+            ("WIRES", "Wires", "One chip with each of its wires, for a close look; as blocks if "
+             "there are too many"),
             ("WAFER", "Wafer", "A wafer full of this chip"),
         ],
     )
@@ -102,16 +104,20 @@ class IMPORT_SCENE_OT_ic_chip(WaferOptions, PlacingOptions, ImportHelper, bpy.ty
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        from icwafer.chips.presets.parts import drifting_wafer
-
         chip = self._chip()
-        layout = self._read(context, chip)
-        name = chip.name.split(".")[0]
+        subject = self._read(context, chip)
+        layout, name = subject.layout, chip.name.split(".")[0]
+        self.process_values = subject.node
         if self.kind == "WAFER":
-            self.add_wafer(context, layout.dies, layout.wafer or drifting_wafer(), name)
+            self.add_wafer(context, layout.dies, layout.wafer, name)
+        elif self.kind == "WIRES" and subject.wires:
+            add_wires(self, context, layout.dies[0], subject.wires, name)
         else:
             add_die(self, context, layout.dies[0], name)
         return {"FINISHED"}
+
+    def node_values(self) -> dict[str, Any]:
+        return super().node_values() | self.process_values
 
     def _selected(self) -> list[Path]:
         named = [Path(self.directory, file.name) for file in self.files if file.name]
@@ -136,27 +142,24 @@ class IMPORT_SCENE_OT_ic_chip(WaferOptions, PlacingOptions, ImportHelper, bpy.ty
             )
         return chips[0]
 
-    def _read(self, context: bpy.types.Context, chip: Path) -> Layout:
-        from icwafer.chips.document import read_layout
+    def _read(self, context: bpy.types.Context, chip: Path) -> Subject:
         from icwafer.errors import IcwaferError
-        from icwafer.layout_import.apart import import_apart
+        from icwafer.portrait.apart import Wish, subject_apart
 
-        if chip.name.endswith(".layout.toml"):
-            return read_layout(chip)
         others = [path for path in self._selected() if path != chip]
-        lef = [path for path in others if path.suffix.lower() == ".lef"]
         maps = [path for path in others if path.suffix.lower() == ".toml"]
+        wish = Wish(
+            path=str(chip),
+            layers=str(maps[0]) if maps else self._layers(),
+            lef=tuple(str(path) for path in others if path.suffix.lower() == ".lef"),
+            top=self.top or None,
+            wafer=self.kind == "WAFER",
+            tile_um=self.tile_um or None,
+            window_um=self.window_um or None,
+        )
         try:
             with progress(context) as tell:
-                return import_apart(
-                    chip,
-                    layers=str(maps[0]) if maps else self._layers(),
-                    tile_um=self.tile_um or None,
-                    window_um=self.window_um or None,
-                    top=self.top or None,
-                    lef=tuple(lef),
-                    progress=tell,
-                )
+                return subject_apart(wish, tell)
         except IcwaferError as error:
             text = str(error)
             for option, here in _NAMES.items():
@@ -186,5 +189,4 @@ class IMPORT_SCENE_OT_ic_chip(WaferOptions, PlacingOptions, ImportHelper, bpy.ty
         column.prop(self, "window_um")
         if self.kind == "WAFER":
             self.draw_wafer(layout)
-        self.draw_look(layout)
         self.draw_place(layout)

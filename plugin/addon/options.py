@@ -20,6 +20,8 @@ from bpy.props import (
     StringProperty,
 )
 
+from .placing import PlacingOptions, items_of
+
 if TYPE_CHECKING:
     from icwafer.chips.model import DieSpec, Group, Layout
 
@@ -90,10 +92,10 @@ class IC_PG_group(bpy.types.PropertyGroup):
     )
 
 
-class ChipOptions:
+class ChipOptions(PlacingOptions):
     """Properties of an operator that makes chips from a preset."""
 
-    preset: EnumProperty(name="Preset", description="Kind of chip", items=preset_items)
+    preset: EnumProperty(name="Chip", description="Kind of chip", items=preset_items)
     filled_from: StringProperty(options={"HIDDEN"})
     seed: IntProperty(
         name="Seed",
@@ -132,6 +134,11 @@ class ChipOptions:
         precision=1,
         step=100,
     )
+    metal: EnumProperty(
+        name="Metal",
+        description="What the wires are made of",
+        items=items_of("metal"),
+    )
     groups: CollectionProperty(type=IC_PG_group)
     show_groups: BoolProperty(
         name="Groups", description="Show the wires of each group of blocks", default=False
@@ -157,6 +164,9 @@ class ChipOptions:
         """The panel's numbers that a preset says, but for the groups."""
         names = ("seed", "width_mm", "height_mm", "block_um")
         return {name: getattr(preset.dies[0], name) for name in names}
+
+    def node_values(self) -> dict[str, Any]:
+        return super().node_values() | {"metal": self.metal}
 
     def adjusted(self, spec: DieSpec) -> DieSpec:
         """The die of the preset with the panel's numbers."""
@@ -190,6 +200,7 @@ class ChipOptions:
         column.prop(self, "width_mm")
         column.prop(self, "height_mm")
         layout.prop(self, "block_um")
+        layout.prop(self, "metal")
 
     def draw_groups(self, layout: bpy.types.UILayout) -> None:
         """The panel's part on the groups, folded or not."""

@@ -7,7 +7,7 @@ scene wants them. The colours do not depend on it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 NODE = "ShaderNodeBsdfICWafer"
 
 
-def _items_of(name: str) -> list[tuple[str, str, str]]:
+def items_of(name: str) -> list[tuple[str, str, str]]:
     """The choices of a property of the node; only one in a Blender without it."""
     node = getattr(bpy.types, NODE, None)
     if node is None:
@@ -52,22 +52,21 @@ class PlacingOptions(AddObjectHelper):
         "the camera",
         default=True,
     )
-    metal: EnumProperty(
-        name="Metal",
-        description="What the wires are made of",
-        items=_items_of("metal"),
-    )
     illuminant: EnumProperty(
         name="Illuminant",
         description="Spectrum of the lamps that light it",
-        items=_items_of("illuminant"),
+        items=items_of("illuminant"),
     )
+
+    def node_values(self) -> dict[str, Any]:
+        """Properties of the node of new materials."""
+        return {"illuminant": self.illuminant}
 
     def parts(self) -> Parts:
         """New materials that take the wires from the attributes of the mesh."""
         from icwafer.scene.parts import parts
 
-        return parts({"metal": self.metal, "illuminant": self.illuminant})
+        return parts(self.node_values())
 
     def add_mesh(
         self, context: bpy.types.Context, mesh: bpy.types.Mesh, longest_mm: float, wires_rad: float
@@ -122,13 +121,9 @@ class PlacingOptions(AddObjectHelper):
             return 1e-3 / context.scene.unit_settings.scale_length
         return self.size / longest_mm
 
-    def draw_look(self, layout: bpy.types.UILayout) -> None:
-        """The panel's part on the material."""
-        layout.prop(self, "metal")
-        layout.prop(self, "illuminant")
-
     def draw_place(self, layout: bpy.types.UILayout) -> None:
-        """The panel's part on size and place."""
+        """The panel's part on light, size and place."""
+        layout.prop(self, "illuminant")
         column = layout.column(align=True)
         row = column.row()
         row.active = not self.true_scale

@@ -23,6 +23,7 @@ from icwafer.chips.die import generate, main_direction_rad  # noqa: E402
 from icwafer.chips.document import write_layout  # noqa: E402
 from icwafer.chips.placement import place_dies  # noqa: E402
 from icwafer.chips.presets import PRESETS  # noqa: E402
+from icwafer.dependencies import PACKAGE, imported  # noqa: E402
 
 DIE, WAFER, IMPORT = "mesh.ic_die_add", "mesh.ic_wafer_add", "import_scene.ic_chip"
 
@@ -111,6 +112,8 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
         "layer map by path": chip("other.gds", process="OWN", layer_map=str(folder / "mine.toml")),
         "layout": chip("preset.layout.toml"),
         "wafer of a layout": chip("preset.layout.toml", kind="WAFER", diameter_mm="200"),
+        "wires": chip("chip.gds", kind="WIRES"),
+        "wafer of a small chip": chip("chip.gds", kind="WAFER", diameter_mm="100"),
         "missing": chip("missing.gds"),
         "text": chip("text.gds"),
         "other process": chip("other.gds"),
@@ -172,8 +175,17 @@ class AddOn(unittest.TestCase):
         self.assertEqual(self.addon["loaded"], [])
 
     def test_it_needs_nothing_but_what_is_installed(self) -> None:
-        installed = host.built_blender().resolve().parent
-        self.assertTrue(Path(self.addon["package"]).is_relative_to(installed))
+        package = Path(self.addon["package"]).parent
+        self.assertTrue(package.is_relative_to(host.built_blender().resolve().parent))
+        parts = sorted((host.REPOSITORY / "plugin" / "addon").glob("*.py"))
+        needed = {file for part in parts for file in imported(part)} - set(parts)
+        self.assertGreater(len(needed), 40)
+        missing = [
+            str(file.relative_to(PACKAGE))
+            for file in needed
+            if not (package / file.relative_to(PACKAGE)).is_file()
+        ]
+        self.assertEqual(missing, [])
 
     # ---- Dies ----------------------------------------------------------------------------------
 
@@ -296,6 +308,15 @@ class AddOn(unittest.TestCase):
         self.assertEqual(self.done["layout"]["name"], "preset")
         places = place_dies(PRESETS["power"])
         self.assertEqual(self.made("wafer of a layout")["instances"], len(places))
+
+    def test_wires_one_by_one(self) -> None:
+        """A top and four sides of each."""
+        self.assertGreaterEqual(self.made("wires")["faces"], 5 * (40_000 // 680))
+        self.assertAlmostEqual(self.spacing_nm("wires") / 680.0, 1.0, delta=1e-3)
+
+    def test_a_wafer_of_a_small_chip_shows_it_enlarged(self) -> None:
+        self.assertLess(self.made("wafer of a small chip")["instances"], 1000)
+        self.assertGreater(self.done["wafer of a small chip"]["instances"], 20)
 
     def test_bad_files(self) -> None:
         self.assert_refused("missing", "missing.gds", "no such file")

@@ -7,7 +7,6 @@ import os
 import signal
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,6 +65,10 @@ def import_layout(
 
 def _examined(parts: Iterator[Cutout]) -> Iterator[tuple[Cutout, list]]:
     """The gratings of each cutout, in order; never many cutouts at once."""
+    # Not above: multiprocessing keeps a reference to the main module, and Blender, which also
+    # imports this one, frees that of a script on its command line and crashes when it ends.
+    from concurrent.futures import Future, ProcessPoolExecutor
+
     jobs = len(os.sched_getaffinity(0))
     with ProcessPoolExecutor(jobs, initializer=_leave_interrupts_to_the_parent) as pool:
         waiting: deque[tuple[Cutout, Future]] = deque()
