@@ -21,18 +21,23 @@ def folder() -> Path:
     return Path(bpy.utils.system_resource("DATAFILES")) / "icwafer"
 
 
-def _ours(preferences: bpy.types.Preferences) -> bpy.types.UserAssetLibrary | None:
-    return preferences.filepaths.asset_libraries.get(NAME)
+def _ours() -> int:
+    """The library's place on the list, of this Blender or of one that stood elsewhere; -1: none."""
+    for index, entry in enumerate(bpy.context.preferences.filepaths.asset_libraries):
+        if Path(entry.path).parts[-2:] == ("datafiles", "icwafer"):
+            return index
+    return -1
 
 
 def _show() -> None:
     """Puts the library on the list, or corrects its folder there."""
     preferences = bpy.context.preferences
-    changed = preferences.is_dirty
-    if not _ours(preferences):
+    changed, index = preferences.is_dirty, _ours()
+    if index < 0:
         bpy.ops.preferences.asset_library_add(directory=str(folder()))
         preferences.filepaths.asset_libraries[-1].name = NAME
-    _ours(preferences).path = str(folder())
+    else:
+        preferences.filepaths.asset_libraries[index].path = str(folder())
     preferences.is_dirty = changed
 
 
@@ -51,8 +56,7 @@ def unregister() -> None:
     bpy.app.handlers.load_post.remove(_after_loading)
     if bpy.app.timers.is_registered(_show):
         bpy.app.timers.unregister(_show)
-    preferences = bpy.context.preferences
-    index = preferences.filepaths.asset_libraries.find(NAME)
+    preferences, index = bpy.context.preferences, _ours()
     if index >= 0:
         changed = preferences.is_dirty
         bpy.ops.preferences.asset_library_remove(index=index)

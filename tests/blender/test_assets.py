@@ -166,8 +166,6 @@ class Presets(unittest.TestCase):
 
     def test_each_sets_what_it_names(self) -> None:
         for preset in self.table:
-            if preset.from_attributes:
-                continue
             found = self.facts["values"][preset.name]
             for name, value in preset.node.items():
                 with self.subTest(preset.name, input=name):
@@ -178,6 +176,7 @@ class Presets(unittest.TestCase):
 
     def test_other_nodes_stay_and_a_missing_material_is_made(self) -> None:
         self.assertTrue(self.facts["nodes kept"])
+        self.assertEqual(self.facts["surface"], "ShaderNodeBsdfICWafer")
         self.assertEqual(self.facts["new material"], "Compact Disc")
 
     def test_a_metal_leaves_the_wires_alone(self) -> None:

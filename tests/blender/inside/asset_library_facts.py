@@ -16,7 +16,7 @@ def libraries() -> dict[str, str]:
 def main() -> None:
     facts = {"start": libraries()}
     bpy.ops.preferences.asset_library_add(directory=parameters()["own"])
-    bpy.context.preferences.filepaths.asset_libraries["IC Wafer"].path = "/moved/away"
+    bpy.context.preferences.filepaths.asset_libraries["IC Wafer"].path = "/away/datafiles/icwafer"
     bpy.context.preferences.is_dirty = False
     bpy.ops.wm.read_homefile(load_ui=False)
     facts["later"] = libraries()

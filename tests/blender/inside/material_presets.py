@@ -19,9 +19,8 @@ def cube() -> bpy.types.Object:
 
 
 def node() -> bpy.types.Node:
-    """The node whose output is the surface of the cube's material."""
-    output = cube().active_material.node_tree.get_output_node("CYCLES")
-    return output.inputs["Surface"].links[0].from_node
+    """The IC Wafer BSDF of the cube's material."""
+    return next(n for n in cube().active_material.node_tree.nodes if n.bl_idname == NODE)
 
 
 def values(wafer: bpy.types.Node) -> dict[str, Any]:
@@ -42,10 +41,11 @@ def main() -> None:
     before = {n.name for n in cube().active_material.node_tree.nodes}
     take("SRAM Cells")
     facts["nodes kept"] = before <= {n.name for n in cube().active_material.node_tree.nodes}
+    output = cube().active_material.node_tree.get_output_node("CYCLES")
+    facts["surface"] = output.inputs["Surface"].links[0].from_node.bl_idname
     for preset in parameters()["presets"]:
         take(preset)
-        wafer = node() if node().bl_idname == NODE else None
-        facts["values"][preset] = values(wafer) if wafer else None
+        facts["values"][preset] = values(node())
 
     cube().data.materials.clear()
     take("Compact Disc")
