@@ -39,7 +39,7 @@ def shoot_browser() -> bool:
     picture.pixels.foreach_get(pixels)
     bpy.data.images.remove(picture)
     # Symbols of files stand in for previews, light grey and large.
-    return bool((pixels.reshape(-1, 4)[:, :3].min(axis=1) > 0.7).mean() > 0.03)
+    return bool((pixels.reshape(-1, 4)[:, :3].min(axis=1) > 0.7).mean() > 0.005)
 
 
 def spacings() -> list[float]:

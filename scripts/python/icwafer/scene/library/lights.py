@@ -35,12 +35,12 @@ RIGS = (
     Rig(
         "Small Lamp",
         "One small lamp: clear, separate bands of colour",
-        (Light("POINT", (3.2, 0.8, 4.6), 700, radius_mm=0.05),),
+        (Light("POINT", (3.2, 0.8, 4.6), 1500, radius_mm=0.05),),
     ),
     Rig(
         "Softbox",
         "A large soft lamp from above and behind: washes of colour that pass into one another",
-        (Light("AREA", (-1.0, 3.5, 4.0), 90, size_mm=(4.0, 2.5)),),
+        (Light("AREA", (-1.0, 3.5, 4.0), 45, size_mm=(4.0, 2.5)),),
     ),
     Rig(
         "Strip Lamps",
@@ -73,7 +73,7 @@ RIGS = (
         "for the colours; put a thing of three units on it",
         (
             Light("POINT", (3.2, 0.8, 4.6), 500, radius_mm=0.15),
-            Light("AREA", (-1.5, 5.0, 3.5), 150, size_mm=(5.0, 2.5), fade=0.6),
+            Light("AREA", (-1.5, 5.0, 3.5), 80, size_mm=(5.0, 2.5), fade=0.6),
             Light("AREA", (-4.5, -0.5, 1.5), 60, size_mm=(0.3, 4.0), fade=0.3),
             Light("AREA", (4.5, 1.0, 1.0), 40, size_mm=(0.3, 4.0), fade=0.3),
         ),
