@@ -19,8 +19,8 @@ _TANGENT_STEP_RAD = math.radians(0.25)
 class Pieces(NamedTuple):
     """What is left of n rectangles.
 
-    whole: (m,) int64, those that stay as they are. cut: the others of which something is left, each
-    with its convex polygon (k, 2) in mm, counter-clockwise.
+    whole: (m,) int64, those that stay as they are. cut: the others of which something is left,
+    each with its convex polygon (k, 2) in mm, counter-clockwise.
     """
 
     whole: np.ndarray
@@ -78,7 +78,8 @@ def _cut(
 ) -> list[tuple[float, float]]:
     """The part of a convex polygon on the inner side of a line.
 
-    I. E. Sutherland and G. W. Hodgman, Reentrant polygon clipping, Communications of the ACM, 1974.
+    I. E. Sutherland and G. W. Hodgman, Reentrant polygon clipping, Communications of the ACM,
+    1974.
     """
     kept = []
     beyond = [x * normal_x + y * normal_y - distance for x, y in polygon]

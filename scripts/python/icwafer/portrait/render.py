@@ -20,8 +20,8 @@ from icwafer.scene import image  # noqa: E402
 from icwafer.scene.portrait import build  # noqa: E402
 
 #: The lamps are such that this share of what is lit is darker than `BRIGHT` of full light.
-LIT_SHARE = 0.90
-BRIGHT = 0.8
+LIT_SHARE = 0.75
+BRIGHT = 0.5
 #: A picture of this share of the size, with this many samples, decides that.
 PROOF_SHARE, PROOF_SAMPLES = 8, 24
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Camera and lamps of a portrait, placed by the grating law.
 
-Light of wavelength lambda leaves a grating of spacing d in order m where the directions to lamp and
-eye add up to u = m lambda / d across the wires and to v = 0 along them. So for wires that run along
-x, and for those that run along y, there is a softbox where the middle of the picture sees the
-middle of an order: long in the direction of the wires, narrow across, so that the bands are soft but
-do not all become white.
+Light of wavelength lambda leaves a grating of spacing d in order m where the directions to lamp
+and eye add up to u = m lambda / d across the wires and to v = 0 along them. So for wires that run
+along x, and for those that run along y, there is a softbox where the middle of the picture sees
+the middle of an order: long in the direction of the wires, narrow across, so that the bands are
+soft but do not all become white.
 """
 
 from __future__ import annotations
@@ -25,14 +25,19 @@ _MIDDLE_NM = 550.0
 _USUAL_U = 0.55
 #: Sine of the largest angle between the surface's normal and a lamp.
 _LOWEST_LAMP = 0.94
+#: Wavelengths that a place of the picture sees at once in the first order, by the lamp's width.
+_BAND_NM = 180.0
 #: Lamps stand this many sizes away.
 _DISTANCE = 3.0
 
 
 @dataclass(frozen=True)
 class Pose:
-    """How the subject is seen. turn_deg: about its normal. polar_deg: of the camera from the normal.
-    fill: share of the picture's width or height that it takes."""
+    """How the subject is seen.
+
+    turn_deg: about its normal. polar_deg: of the camera from the normal. fill: share of the
+    picture's width or height that it takes.
+    """
 
     turn_deg: float
     polar_deg: float
@@ -108,8 +113,9 @@ def direction_to_lamp(
 ) -> np.ndarray:
     """Where a lamp stands so that the camera sees `_MIDDLE_NM` in the order next to `_USUAL_U`.
 
-    Unit vectors (3,); the surface's normal is z. Of the two sides of the mirror direction it is the
-    one nearer to the normal.
+    Unit vectors (3,); the surface's normal is z. Of the two sides of the mirror direction it is
+    the one nearer to the normal. Where it would have to stand lower than `_LOWEST_LAMP`, the
+    middle of the picture sees a shorter wavelength.
     """
     across = np.cross([0.0, 0.0, 1.0], along_wires)
     order = max(1, round(_USUAL_U * spacing_nm / _MIDDLE_NM))
@@ -128,7 +134,8 @@ def _key(
     """A softbox that shows the wires of one direction."""
     direction = direction_to_lamp(to_camera, along_wires, spacing_nm)
     distance = _DISTANCE * SIZE_MM
-    return _softbox(direction, along_wires, (1.1 * distance, 0.4 * distance), power_w)
+    across = distance * float(np.clip(_BAND_NM / spacing_nm, 0.05, 0.4))
+    return _softbox(direction, along_wires, (1.1 * distance, across), power_w)
 
 
 def _sheen(to_camera: np.ndarray) -> Light:

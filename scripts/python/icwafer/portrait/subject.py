@@ -54,7 +54,8 @@ def subject_of(
         return Subject(_with_wafer(layout) if wafer else layout)
     if not path.name.lower().endswith(CHIPS):
         raise IcwaferError(
-            f"{path}: neither a layout ({ENDING}) nor a chip ({', '.join(CHIPS)}); name such a file"
+            f"{path}: neither a layout ({ENDING}) nor a chip ({', '.join(CHIPS)}); "
+            "name such a file"
         )
     process = read_process(layers)
     request = Request(path, process, tile_um, window_um, top, lef)

@@ -101,10 +101,17 @@ def _cells(imported: Imported, process: Process) -> Wires:
     """What is seen between the wires: the rows of cells, with the period of the lowest wires."""
     everything = [finding for findings in imported.findings.values() for finding in findings]
     lowest = max((finding.layer for finding in everything), default=0)
-    rows = [finding for finding in everything if finding.layer == lowest]
+    candidates = [finding for finding in everything if finding.layer == lowest]
+    strongest = _strongest(candidates)
+    # Tracks may be stronger in a tile; the rows have the longer period.
+    rows = max(
+        (f for f in candidates if f.grating.amplitude > 0.5 * strongest.grating.amplitude),
+        key=lambda finding: finding.grating.period_um,
+        default=None,
+    )
     half = np.array(imported.chip.size_um) / 2
     corners = half * np.array([[(-1, -1), (-1, 1), (1, 1), (1, -1)]])
-    look = _look(_strongest(rows)) | {
+    look = _look(rows) | {
         "diffraction": CELLS,
         "oxide_nm": process.oxide_nm(process.layers[-1]),
         "groove_nm": CELL_GROOVE_NM,
@@ -153,5 +160,6 @@ def _look(finding: Finding | None) -> dict[str, float]:
         "spacing_nm": 1000 * grating.period_um,
         "width_nm": 1000 * grating.duty * grating.period_um,
         "direction_rad": grating.direction_rad,
+        # Wires stand in bundles: around one that is there, more of the grating is than elsewhere.
         "diffraction": min(1.0, grating.presence) ** 0.5,
     }

@@ -67,9 +67,9 @@ def chip_material(
 ) -> bpy.types.Material:
     """A material for chips of the model PHYSICAL, driven by the attributes of mesh and instance.
 
-    The share of a block that diffracts is its `ic_diffraction`; the rest is metal without a regular
-    pattern, which reflects softly as a metal of the other arguments. Film, grooves and wires follow
-    the drift of a wafer.
+    The share of a block that diffracts is its `ic_diffraction`; the rest is metal without a
+    regular pattern, which reflects softly as a metal of the other arguments. Film, grooves and
+    wires follow the drift of a wafer.
     values: of the node's inputs and properties; an input that is named here takes no attribute.
     """
     material = bpy.data.materials.new(name)

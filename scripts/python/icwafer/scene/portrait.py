@@ -81,7 +81,7 @@ def _add_die(scene: bpy.types.Scene, die: Die, order: Order) -> tuple[tuple[floa
     pose = Pose(
         turn_deg=(90.0 if extent_mm[1] > extent_mm[0] else 0.0) - 16.0,
         polar_deg=42.0,
-        fill=0.86,
+        fill=0.95,
         f_stop=64.0,
     )
     made = parts(order.node)
@@ -123,5 +123,5 @@ def _box_mesh(
 
 def _add_table(scene: bpy.types.Scene, depth: float) -> None:
     """depth: of the table below the subject's face, relative to `SIZE_MM`."""
-    table = Table(2.2 * SIZE_MM, (0.007, 0.007, 0.008), 0.2, 1.02 * depth * SIZE_MM)
+    table = Table(1.1 * SIZE_MM, (0.02, 0.02, 0.022), 0.06, 1.02 * depth * SIZE_MM)
     scene.collection.objects.link(table_object(table))

@@ -4,7 +4,9 @@
 The object's mesh is the disc of silicon and a loose point where each die stands; a geometry-nodes
 modifier puts the dies on the points. The points carry `ic_die` (1 for the first kind of die, 0 for
 the disc's own points) and the drift of the place, `ic_oxide_drift` and so on, which the material
-reads from the instance (Attribute node, type Instancer).
+reads from the instance (Attribute node, type Instancer). Of what can carry such attributes, an
+object for each die takes several times as long to the first sample, and is hundreds of things to
+move (tests/benchmarks/wafer_scale.py).
 """
 
 from __future__ import annotations

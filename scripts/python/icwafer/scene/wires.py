@@ -12,8 +12,10 @@ from icwafer.scene.polygons import add_attribute, polygon_mesh
 
 
 def wires_mesh(wires: Wires) -> bpy.types.Mesh:
-    """A solid for each wire, in mm; its top carries the attributes and the material of index 0, its
-    sides have the one of index 1."""
+    """A solid for each wire, in mm.
+
+    Its top carries the attributes and has the material of index 0, its sides the one of index 1.
+    """
     count = len(wires.corners_um)
     rings = np.zeros((2, count, 4, 3))
     rings[..., :2] = wires.corners_um[:, ::-1]
