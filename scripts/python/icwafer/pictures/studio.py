@@ -2,7 +2,8 @@
 """Wafers and a die in a studio, with the model PHYSICAL.
 
 Softboxes behind and above. The one behind is where a wafer that lies flat mirrors it to the
-camera, so it gives the white band; the one above gives wires that run across the picture their first order.
+camera, so it gives the white band; the one above gives wires that run across the picture their
+first order.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ _METAL: dict[str, NodeValue] = {
     "Wire Length": 1.2,
     "Roughness": 0.1,
 }
-_FULL = Render((1920, 1080), 48, noise=0.02, bounces=1)
+_FULL = Render((1920, 1080), 40, noise=0.02, bounces=1)
 
 WAFER = Picture(
     "A 300 mm wafer of memories in a studio.",
