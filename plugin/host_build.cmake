@@ -89,7 +89,7 @@ if(ICWAFER_BUILD STREQUAL "blender")
   )
   install(DIRECTORY ${host_stage}/share/locale DESTINATION ${version_folder}/datafiles OPTIONAL)
 
-  # The add-on, and of the Python package what it needs: no commands, no build.
+  # The add-on, and of the Python package what it needs: no commands, no build, no plots.
   set(installed_scripts ${version_folder}/scripts)
   set(package ${PROJECT_SOURCE_DIR}/scripts/python/icwafer)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/plugin/addon/
@@ -116,6 +116,8 @@ if(ICWAFER_BUILD STREQUAL "blender")
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE
     PATTERN library EXCLUDE
+    PATTERN map_picture.py EXCLUDE
+    PATTERN plot.py EXCLUDE
     REGEX "/portrait/render[.]py$" EXCLUDE
   )
   install(FILES ${package}/assets/__init__.py ${package}/assets/materials.py
