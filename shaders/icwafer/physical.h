@@ -157,6 +157,8 @@ constexpr float mirror_reach = 5.5f;
 /* A narrow lobe whose middle is where the eye sees well matters no further than this. */
 constexpr float bright_first_nm = 425.0f, bright_last_nm = 670.0f, bright_sigma_nm = 16.0f;
 constexpr float bright_reach = 3.3f;
+/* Orders further apart than twice this many standard deviations are told apart. */
+constexpr float apart_reach = 3.0f;
 /* Steps above this are rounded down to whole nanometres. */
 constexpr float whole_step_nm = 2.0f;
 /* More orders than this are not summed one by one. */
@@ -802,7 +804,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   }
   else if (blurred_orders < 0.7f) {
     lobe_per_nm = gaussian_bandwidth / sigma_nm(first_nm);
-    if (2.0f * bright_reach * blurred_orders * last_nm < first_nm) {
+    if (2.0f * apart_reach * blurred_orders * last_nm < first_nm) {
       nodes.orders = Orders::Single;
     }
   }
