@@ -82,6 +82,9 @@ class MATERIAL_MT_ic_wafer_presets(bpy.types.Menu):
     bl_label = "IC Wafer Presets"
 
     def draw(self, _context: bpy.types.Context) -> None:
+        if not asset_library.folder().is_dir():
+            self.layout.label(text=f"{asset_library.folder()} is missing: install Blender again")
+            return
         columns = self.layout.row()
         for _, kind in groupby(_presets().values(), lambda preset: preset.catalog.split("/")[1]):
             column = columns.column()

@@ -29,13 +29,14 @@ from icwafer.scene.turn import turn_to_light_rad  # noqa: E402
 
 SAMPLES = 24
 
+#: Told how many assets are done, of how many, and the name of the last one.
+Progress = Callable[[int, int, str], None]
 
-def write(
-    kind: str, sources: Path, path: Path, progress: Callable[[int, int, str], None]
-) -> None:
+
+def write(kind: str, sources: Path, path: Path, progress: Progress) -> None:
     """Makes the assets of a kind with their previews and writes them to a file.
 
-    progress: told after each asset the number of those done, of all, and the asset's name. Raises IcwaferError for bad sources and OSError where the file cannot be written.
+    Raises IcwaferError for bad sources and OSError where the file cannot be written.
     """
     bpy.ops.wm.read_factory_settings()
     expect_node()
@@ -78,7 +79,7 @@ def _photograph(scene: bpy.types.Scene, asset: Asset) -> None:
     scene.camera = camera
 
 
-def _progress_without_cycles() -> Callable[[int, int, str], None]:
+def _progress_without_cycles() -> Progress:
     """Prints how far the work is, and keeps what Blender itself prints about it to itself."""
     stream = os.fdopen(os.dup(sys.stdout.fileno()), "w")
     with open(os.devnull, "w") as nowhere:
@@ -92,6 +93,8 @@ def _progress_without_cycles() -> Callable[[int, int, str], None]:
 
 def main(arguments: list[str]) -> int:
     try:
+        if len(arguments) != 3:
+            raise IcwaferError("write.py takes KIND SOURCES FILE.blend")
         kind, sources, path = arguments
         if kind not in KINDS:
             raise IcwaferError(f"no kind of assets '{kind}': choose from {', '.join(KINDS)}")
