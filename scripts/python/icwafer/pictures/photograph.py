@@ -27,8 +27,10 @@ PHOTOGRAPH = Picture(
         ),
         # Low at the left: only the rounded rim sends its light on to the camera.
         Light("CARD", (-420.0, 60.0, 110.0), 5e5, size_mm=(500.0, 120.0)),
+        # Low behind: the far rim.
+        Light("CARD", (-120.0, 620.0, 60.0), 1.5e5, size_mm=(800.0, 90.0), fade=0.5),
         # What the bare silicon of the near rim mirrors: a dim window.
-        Light("CARD", (-190.0, 390.0, 380.0), 2e3, (0.1, 0.25, 1.0), size_mm=(300.0, 160.0), fade=0.6),
+        Light("CARD", (-190.0, 390.0, 380.0), 1.2e3, (0.1, 0.25, 1.0), size_mm=(300.0, 160.0), fade=0.6),
     ),
     Camera(
         position_mm=(4.01, -319.82, 204.83),
@@ -45,6 +47,6 @@ PHOTOGRAPH = Picture(
         "Roughness": 0.061,
     },
     wafer="bar-memory",
-    view=View("Standard", "None", exposure=-0.3, gamma=0.81),
+    view=View("Standard", "None", exposure=0.0, gamma=0.74),
     render=Render((1024, 682), 160, noise=0.01, bounces=1),
 )

@@ -44,7 +44,7 @@ FRONT = Picture(
         Light("AREA", (0.0, 310.0, 690.0), 0.8e6, size_mm=(600.0, 16.0), fade=0.4),
         Light("AREA", (-300.0, -140.0, 690.0), 2.0e6, size_mm=(40.0, 60.0), fade=0.4),
     ),
-    Camera((0.0, -200.0, 690.0), (0.0, -2.0, 0.0), lens_mm=49.0),
+    Camera((0.0, -200.0, 690.0), (0.0, -4.0, 0.0), lens_mm=47.0),
     _METAL | {"metal": "ALUMINIUM"},
     wafer="dram",
     view=View(exposure=0.5),

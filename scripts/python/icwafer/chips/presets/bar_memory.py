@@ -65,11 +65,11 @@ _BARS = Cut(
     0,
     (
         Part(_PADS, um=230.0),
-        Part(_STRIP, um=370.0),
+        Part(_STRIP, um=320.0),
         Part(_BAR),
-        Part(_STRIP, um=440.0),
+        Part(_STRIP, um=360.0),
         Part(_BAR),
-        Part(_STRIP, um=340.0),
+        Part(_STRIP, um=290.0),
     ),
 )
 
