@@ -101,7 +101,8 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
         "edit mode": step(DIE, preset="dram") | {"before": in_edit_mode},
         "not turned": rendered("not turned", step(DIE, preset="dram", catch_light=False)),
         "too small": step(DIE, preset="eight-core", width_mm=0.1, height_mm=0.1),
-        "wafer": rendered("wafer", step(WAFER, preset="eight-core")),
+        "wafer": rendered("wafer", step(WAFER, preset="eight-core"))
+        | {"blend": str(folder / "wafer.blend")},
         "wafer 100": step(WAFER, preset="power", diameter_mm="100", partial_dies=True, drift=0.0),
         "too large": step(WAFER, preset="power", width_mm=40.0, height_mm=40.0),
         "gds": chip("chip.gds"),
@@ -284,6 +285,18 @@ class AddOn(unittest.TestCase):
 
     def test_dies_larger_than_a_reticle(self) -> None:
         self.assert_refused("too large", "reticle", "40 x 40 mm")
+
+    def test_a_saved_wafer_opens_in_a_blender_without_the_add_on(self) -> None:
+        stock = host.run_inside(
+            host.stock_blender(),
+            "addon_file",
+            {"blend": str(self.folder / "wafer.blend")},
+            folder=self.folder / "stock",
+            seconds=120,
+        )
+        made = self.made("wafer")
+        for fact in ("name", "faces", "instances", "attributes", "materials", "scale"):
+            self.assertEqual(stock[fact], made[fact])
 
     # ---- Import --------------------------------------------------------------------------------
 

@@ -2,8 +2,8 @@
 """Use the add-on's operators without a window, each time in a new scene, and report what they made.
 
 Parameters: `steps`, each with `operator` ("mesh.ic_die_add"), `options` for it, and if wanted
-`before`, statements that prepare the scene, and `exr`, to where Blender's default scene is rendered
-with the new thing in place of its cube.
+`before`, statements that prepare the scene; `exr`, to where Blender's default scene is rendered with
+the new thing in place of its cube; and `blend`, to where the file is saved.
 """
 
 from __future__ import annotations
@@ -13,53 +13,15 @@ import io
 import sys
 
 import bpy
-import numpy as np
 from exchange import parameters, report
 from rendering import render_to, use_cycles
+from thing_facts import thing_facts
 
 
 def operator(path: str) -> object:
     """The operator of a name such as "mesh.ic_die_add"."""
     module, name = path.split(".")
     return getattr(getattr(bpy.ops, module), name)
-
-
-def values_of(attribute: bpy.types.Attribute) -> list[float]:
-    values = np.empty(len(attribute.data), dtype=np.float32)
-    attribute.data.foreach_get("value", values)
-    return [float(values.min()), float(values.max()), float(values.astype(np.float64).sum())]
-
-
-def instances_of(thing: bpy.types.Object) -> int:
-    """How many instances an object has after its modifiers."""
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    return sum(
-        instance.is_instance and instance.parent.original == thing
-        for instance in depsgraph.object_instances
-    )
-
-
-def thing_facts(thing: bpy.types.Object) -> dict[str, object]:
-    """What an object is: place, size, faces, materials and attributes."""
-    mode = thing.mode
-    bpy.ops.object.mode_set(mode="OBJECT")  # else its mesh is not up to date
-    return {
-        "name": thing.name,
-        "mode": mode,
-        "selected": [other.name for other in bpy.context.view_layer.objects.selected],
-        "location": list(thing.location),
-        "rotation": list(thing.rotation_euler),
-        "scale": list(thing.scale),
-        "dimensions": list(thing.dimensions),
-        "faces": len(thing.data.polygons),
-        "materials": [slot.material.name for slot in thing.material_slots],
-        "instances": instances_of(thing),
-        "attributes": {
-            attribute.name: values_of(attribute)
-            for attribute in thing.data.attributes
-            if attribute.name.startswith("ic_") and attribute.data_type == "FLOAT"
-        },
-    }
 
 
 def data_count() -> dict[str, int]:
@@ -82,6 +44,8 @@ def take(step: dict[str, object]) -> dict[str, object]:
     if "exr" in step:
         use_cycles(width=96, height=54, samples=8)
         render_to(exr=step["exr"])
+    if "blend" in step:
+        bpy.ops.wm.save_as_mainfile(filepath=step["blend"], copy=True)
     return {"result": list(result)} | thing_facts(bpy.context.view_layer.objects.active)
 
 

@@ -63,6 +63,7 @@ def search(text: str) -> None:
 
 def things() -> dict[str, list[float]]:
     """All meshes of the scene by name: number of faces, and largest side."""
+    bpy.context.view_layer.update()
     return {
         thing.name: [len(thing.data.polygons), max(thing.dimensions)]
         for thing in bpy.context.scene.objects
@@ -93,7 +94,7 @@ def redo(**numbers: object) -> None:
         properties = bpy.context.window_manager.operators[-1].properties
         for name, value in numbers.items():
             setattr(properties, name, value)
-        bpy.ops.ed.undo_redo()
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: with steps of undo, as from the panel
 
 
 def undo() -> None:
@@ -110,8 +111,8 @@ def add_wafer() -> None:
     """One with few blocks: a graphics card draws millions at once, software does not."""
     with bpy.context.temp_override(**in_view()):
         bpy.ops.mesh.ic_wafer_add(
-            "INVOKE_DEFAULT", preset="power", diameter_mm="100", block_um=1000.0
-        )
+            "INVOKE_DEFAULT", True, preset="power", diameter_mm="100", block_um=1000.0
+        )  # True: with a step of undo, as from a menu
 
 
 def choose_file() -> None:
@@ -130,6 +131,8 @@ def tell(name: str) -> Step:
     return lambda: facts.update({name: things()})
 
 
+# Else the view is drawn eight times after each change, which takes software long.
+bpy.context.preferences.system.viewport_aa = "OFF"
 in_window(
     rest_mouse,
     lambda: call_menu("VIEW3D_MT_mesh_add"),
@@ -140,8 +143,8 @@ in_window(
     tell("die"),
     lambda: shoot("folded"),
     unfold_panel,
-    lambda: facts.update({"panel": panel_rectangle()}),
     lambda: shoot("unfolded"),
+    lambda: facts.update({"panel": panel_rectangle()}),
     lambda: redo(seed=3, show_groups=True),
     tell("other seed"),
     lambda: shoot("groups"),
