@@ -29,7 +29,7 @@ def _assets(_: argparse.Namespace) -> int:
 
 def build_library() -> list[Path]:
     """Installs what the library needs, and brings it up to date; see `icwafer.assets.build`."""
-    packages.install("base", "images", "layout")
+    packages.install("base", "images")
     from icwafer.assets.build import build
 
     return build()
