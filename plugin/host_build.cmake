@@ -115,9 +115,22 @@ if(ICWAFER_BUILD STREQUAL "blender")
     DESTINATION ${installed_scripts}/modules/icwafer
     PATTERN __pycache__ EXCLUDE
     PATTERN command.py EXCLUDE
+    PATTERN library EXCLUDE
     PATTERN map_picture.py EXCLUDE
     PATTERN plot.py EXCLUDE
     REGEX "/portrait/render[.]py$" EXCLUDE
+  )
+  install(FILES ${package}/assets/__init__.py ${package}/assets/materials.py
+    DESTINATION ${installed_scripts}/modules/icwafer/assets
+  )
+
+  # The table of material presets and, where `scripts/icwafer assets` has built it, the library.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/blend_assets/library/
+    DESTINATION ${version_folder}/datafiles/icwafer
+  )
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/assets/
+    DESTINATION ${version_folder}/datafiles/icwafer OPTIONAL
+    FILES_MATCHING PATTERN "*.blend"
   )
 else()
   install(PROGRAMS ${host_binary}/bin/cycles DESTINATION .)

@@ -11,14 +11,23 @@ A further part is a module whose classes are named in `_CLASSES`, or that has `r
 
 import bpy
 
-from . import add_die, add_wafer, attributes_panel, import_chip, menus, options
+from . import (
+    add_die,
+    add_wafer,
+    asset_library,
+    attributes_panel,
+    import_chip,
+    material_presets,
+    menus,
+    options,
+)
 
 bl_info = {
     "name": "IC Wafer",
     "description": "Chips and wafers with the colours of diffraction, generated or imported",
     "version": (1, 0, 0),
     "blender": (3, 4, 0),
-    "location": "Add > Mesh; File > Import; Properties > Object Data",
+    "location": "Add > Mesh; File > Import; Properties > Object Data and Material",
     "category": "Add Mesh",
 }
 
@@ -31,8 +40,9 @@ _CLASSES = (
     attributes_panel.WM_OT_ic_attribute_copy,
     attributes_panel.OBJECT_OT_ic_material_add,
     attributes_panel.DATA_PT_ic_attributes,
+    *material_presets.CLASSES,
 )
-_PARTS = (menus,)
+_PARTS = (menus, asset_library, material_presets)
 
 
 def register():

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from icwafer import build, doctor, layout_command, packages, paths, render, source
+from icwafer.assets import command as assets_command
 from icwafer.compare import command as compare_command
 from icwafer.errors import IcwaferError
 from icwafer.portrait import command as portrait_command
@@ -56,6 +57,8 @@ def _pictures(arguments: argparse.Namespace) -> int:
 
 def _build(arguments: argparse.Namespace) -> int:
     build.build(arguments.target, build.definitions(arguments.definitions))
+    if arguments.target == "blender":
+        assets_command.build_library()
     return 0
 
 
@@ -78,6 +81,7 @@ def _test(arguments: list[str]) -> int:
     packages.install("base", "images", "core", "host", "layout", "import", "test")
     build.build("core")
     build.build("blender")
+    assets_command.build_library()
     return subprocess.run(
         ["ctest", "--preset", "core", *arguments], cwd=paths.REPOSITORY
     ).returncode
@@ -125,6 +129,7 @@ def _parser() -> _Parser:
     add("doctor", "check dependencies, source edits and build").set_defaults(run=_doctor)
     layout_command.register(add)
     portrait_command.register(add)
+    assets_command.register(add)
     pictures = add("pictures", "render the README's pictures to out/pictures")
     pictures.add_argument(
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"

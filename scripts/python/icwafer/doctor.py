@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from icwafer import build, packages, paths
+from icwafer.assets.plan import KINDS, installed_folder
 from icwafer.errors import IcwaferError
 from icwafer.source import host_edits
 
@@ -130,6 +131,15 @@ def check_start() -> Finding:
     return Finding("Blender's start", "starts, and has the node and the add-on")
 
 
+def check_assets() -> Finding:
+    """The asset library is there; whether it is up to date, its own command finds out."""
+    folder = installed_folder()
+    missing = [kind for kind in KINDS if not (folder / f"{kind}.blend").is_file()]
+    if missing:
+        return Finding("asset library", f"no {missing[0]} in {folder}", "run scripts/icwafer assets")
+    return Finding("asset library", f"{', '.join(KINDS)} in {folder}")
+
+
 def checks() -> list[Callable[[], Finding]]:
     """All checks, in the order in which things depend on each other."""
     purposes = ["base", "images", "core", "host", *(["full"] if build.is_full({}) else [])]
@@ -145,6 +155,7 @@ def checks() -> list[Callable[[], Finding]]:
         lambda: check_program("cycles", bin_folder / "cycles", paths.CYCLES, "blender"),
         lambda: check_program("Blender", bin_folder / "blender", paths.BLENDER, "blender"),
         check_start,
+        check_assets,
     ]
 
 
