@@ -119,7 +119,7 @@ class OddImages(CompareCase):
         plain, half = self.image("b.exr", RAMP), self.image("c.exr", 0.5 * RAMP)
         self.assertIn("layer 'View.Combined' of 2", self.compare(0, both, plain))
         self.expect_error(
-            ["compare", both, half, "--layer", "View.Difuse"], 2, "nearest is 'View.Diffuse'"
+            ["compare", both, half, "--layer", "View.Difuse"], 2, "did you mean 'View.Diffuse'"
         )
         layers = [images.read(Path(both), layer).pixels for layer in ("View.Diffuse", None)]
         np.testing.assert_allclose(layers[0], 0.5 * layers[1], atol=1e-6)
@@ -162,7 +162,7 @@ class Colour(CompareCase):
         out = self.compare(0, a, a, "--ocio", config)
         self.assertIn(f"Working on Plain ({config})", out)
         self.expect_error(
-            ["compare", a, a, "--ocio", config, "--view", "Worknig"], 2, "nearest is 'Working'"
+            ["compare", a, a, "--ocio", config, "--view", "Worknig"], 2, "did you mean 'Working'"
         )
         self.expect_error(
             ["compare", a, a, "--ocio", a], 2, "a.exr: not an OpenColorIO configuration"

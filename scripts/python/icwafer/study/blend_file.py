@@ -15,7 +15,7 @@ import bpy
 from icwafer import blender_scene
 from icwafer.errors import SettingError
 from icwafer.study import fields
-from icwafer.toml_lines import nearest
+from icwafer.suggest import nearest
 
 _RENDER = {
     "samples": "cycles.samples",

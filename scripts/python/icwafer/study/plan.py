@@ -21,7 +21,8 @@ from icwafer.errors import IcwaferError, SettingError
 from icwafer.study import fields, image_file
 from icwafer.study.document import Assignment, Axis, Step, Study, overridden
 from icwafer.study.keys import Keys
-from icwafer.toml_lines import Document, nearest
+from icwafer.suggest import nearest
+from icwafer.toml_lines import Document
 
 MAX_JOBS = 1_000_000
 MAX_ID = 120

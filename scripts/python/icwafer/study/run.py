@@ -18,7 +18,7 @@ from icwafer.study.order import Order
 from icwafer.study.plan import Job, Plan
 from icwafer.study.store import Store
 from icwafer.study.workers import Reply, ask
-from icwafer.toml_lines import nearest
+from icwafer.suggest import nearest
 
 #: What a path costs where nothing has been measured yet, in seconds of all cores: the picture
 #: `full` has 66 million paths and takes 75 s on two cores.
