@@ -114,6 +114,19 @@ class ResultsTest(StudyCase):
         panorama.write_text("two")
         self.assertIn("3 rendered, 0 were there", self.render(study, output))
 
+    def test_jobs_that_differ_in_their_view_share_the_light(self) -> None:
+        output = self.folder / "out"
+        gammas = axis("gamma", "view.gamma", [1, 2])
+        self.render(self.study(SEEDS, gammas), output, "--jobs", "2")
+        facts = self.facts(output)
+        rendered = [job["settings"]["seed"] for job in facts.values() if job["rendered"]]
+        self.assertEqual(sorted(rendered), [1, 2, 3])
+        # What is there serves the next run, too: another view, and one more.
+        study = self.study("view.transform = 'Raw'\n", SEEDS, axis("gamma", "view.gamma", [1, 3]))
+        self.assertIn("about", self.render(study, output, "--dry-run"))
+        self.assertIn("6 rendered", self.render(study, output))
+        self.assertFalse(any(job["rendered"] for job in self.facts(output).values()))
+
     def test_dry_run_renders_nothing(self) -> None:
         output = self.folder / "out"
         said = self.render(self.study(SEEDS), output, "--dry-run")
