@@ -19,6 +19,7 @@ from typing import NoReturn
 
 from icwafer import build, doctor, layout_command, packages, paths, render, source
 from icwafer.compare import command as compare_command
+from icwafer.compare import merge as merge_command
 from icwafer.errors import IcwaferError
 from icwafer.report import command as report_command
 from icwafer.study import command as study_command
@@ -135,6 +136,7 @@ def _parser() -> _Parser:
     )
     source_command.set_defaults(run=_source)
     compare_command.register(add)
+    merge_command.register(add)
     report_command.register(add)
     return parser
 

@@ -65,6 +65,16 @@ def read(path: Path, layer: str | None = None) -> Image:
     return Image(path, np.where(bad[..., None], np.float32(0), pixels), linear, bad, notes)
 
 
+def layer_if_there(path: Path, layer: str) -> str | None:
+    """The layer's name if a file has it, else None."""
+    file = oiio.ImageInput.open(str(path)) if path.is_file() else None
+    if file is None:
+        return None
+    found = _channels_by_layer(file)
+    file.close()
+    return layer if layer in found else None
+
+
 def same_size(first: Image, second: Image, fit: bool) -> tuple[Image, Image]:
     """Both at one size: with `fit` the larger one is resampled to the smaller one's.
 
