@@ -25,9 +25,10 @@ DUMP_MESH = """
 import sys
 sys.path.insert(0, sys.argv[-2])
 import numpy as np
-from icwafer import blender_scene, pictures
+from icwafer import pictures
 from icwafer.chips import die
-mesh = blender_scene.die_mesh(die.generate(pictures.PICTURES["full"].die))
+from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE, die_mesh
+mesh = die_mesh(die.generate(pictures.PICTURES["full"].die))
 assert not mesh.validate(), "the mesh is not valid"
 def read(items, name, width=1):
     values = np.empty(len(items) * width, dtype=np.float32)
@@ -39,7 +40,7 @@ np.savez(
     area=read(mesh.polygons, "area"),
     center=read(mesh.polygons, "center", 3),
     **{name: read(mesh.attributes[name].data, "value")
-       for name in blender_scene.SOCKET_OF_ATTRIBUTE},
+       for name in SOCKET_OF_ATTRIBUTE},
 )
 """
 

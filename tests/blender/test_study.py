@@ -309,7 +309,7 @@ class DependenciesTest(StudyCase):
             "--python-expr", script, folder=self.folder, seconds=60,
         )  # fmt: skip
         used = {Path(line[5:]) for line in ended.output.splitlines() if line.startswith("USED ")}
-        self.assertIn(PACKAGE / "blender_scene.py", used)
+        self.assertIn(PACKAGE / "scene" / "picture.py", used)
         self.assertEqual(used - set(imported(PACKAGE / "study" / "worker.py")), set())
 
 

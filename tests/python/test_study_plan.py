@@ -83,7 +83,7 @@ class DependenciesTest(unittest.TestCase):
             str(path.relative_to(dependencies.PACKAGE))
             for path in dependencies.imported(keys.WORKER)
         }
-        for name in ("study/worker.py", "blender_scene.py", "chips/die.py", "errors.py"):
+        for name in ("study/worker.py", "scene/picture.py", "chips/die.py", "errors.py"):
             self.assertIn(name, found)
         self.assertNotIn("cli.py", found)
         self.assertNotIn("study/slurm.py", found)

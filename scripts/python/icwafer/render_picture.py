@@ -71,15 +71,16 @@ def render(picture: Picture, output: Path) -> None:
     """
     import bpy
 
-    from icwafer import blender_image, blender_scene
+    from icwafer.scene import image
+    from icwafer.scene.picture import build
 
     output = output.resolve()
-    scene = blender_scene.build(picture)
+    scene = build(picture)
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise IcwaferError(f"cannot make folder {output.parent}: {error.strerror}") from error
-    blender_image.expect_space(output.parent, picture.render.size)
+    image.expect_space(output.parent, picture.render.size)
     bpy.ops.render.render()
     # Written beside and renamed, so that no half of a picture is ever left.
     parts = {
@@ -88,7 +89,7 @@ def render(picture: Picture, output: Path) -> None:
     }
     try:
         for part in parts.values():
-            blender_image.save(scene, part)
+            image.save(scene, part)
         for path, part in parts.items():
             part.replace(path)
             logger.info("wrote %s", path)

@@ -20,8 +20,8 @@ from rendering import render_to
 given = parameters()
 sys.path.insert(0, given["package"])
 
-from icwafer import blender_scene  # noqa: E402
 from icwafer.pictures import PICTURES  # noqa: E402
+from icwafer.scene import picture as picture_scene  # noqa: E402
 
 
 def build(spacing_scale: float) -> None:
@@ -30,7 +30,7 @@ def build(spacing_scale: float) -> None:
         picture.render, size=tuple(given["size"]), samples=given["samples"]
     )
     picture = dataclasses.replace(picture, render=render)
-    scene = blender_scene.build(picture)
+    scene = picture_scene.build(picture)
     scene.render.use_persistent_data = True  # the die is the same from seed to seed
     spacing = bpy.data.meshes["Die"].attributes["ic_spacing_nm"].data
     values = np.empty(len(spacing), dtype=np.float32)

@@ -17,8 +17,8 @@ from window import area_of, context_of, in_window
 
 sys.path.insert(0, parameters()["python"])
 
-from icwafer.blender_scene import build  # noqa: E402
 from icwafer.pictures import PICTURES  # noqa: E402
+from icwafer.scene.picture import build  # noqa: E402
 
 
 def wafer_tree() -> bpy.types.NodeTree:

@@ -130,7 +130,8 @@ def _wafer_problems(layout: Layout, wafer: Wafer) -> Iterator[Problem]:
         if not len(test_field_dies_mm(layout, place)):
             yield Problem(
                 ("wafer", "test_fields", index),
-                f"field {list(place)} is not wholly on the wafer, or too small for the die "
+                f"field {list(place)} is not "
+                f"{'' if wafer.partial_dies else 'wholly '}on the wafer, or too small for the die "
                 f"'{layout.dies[1].name}': choose one nearer to [0, 0]",
             )
 

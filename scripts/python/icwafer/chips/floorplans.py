@@ -11,6 +11,7 @@ import numpy as np
 from icwafer.chips import pictures_plan
 from icwafer.chips.plan import Plan
 from icwafer.chips.presets import (
+    bar_memory,
     dram,
     fpga,
     graphics,
@@ -30,6 +31,8 @@ FLOORPLANS: dict[str, Floorplan] = {
     "eight-core": partial(tree_plan, processor.TREE),
     "graphics": partial(tree_plan, graphics.TREE),
     "dram": partial(tree_plan, dram.TREE),
+    "bar-memory": partial(tree_plan, bar_memory.TREE),
+    "bar-memory-test": partial(tree_plan, bar_memory.TEST_TREE),
     "image-sensor": partial(tree_plan, image_sensor.TREE),
     "microcontroller": partial(tree_plan, microcontroller.TREE),
     "fpga": partial(tree_plan, fpga.TREE),

@@ -3,7 +3,7 @@
 
 A scanner prints fields of several dies side by side. A product die stands where its farthest
 corner is within the usable radius (the wafer's less the edge exclusion), as far from flats and
-notch; the lattice is shifted by half a die where that makes more of them.
+notch; the lattice is shifted by half a die where that makes more of them, unless the wafer says otherwise.
 """
 
 from __future__ import annotations
@@ -53,6 +53,16 @@ class Field(NamedTuple):
     width_mm: float
     height_mm: float
 
+    @property
+    def size(self) -> np.ndarray:
+        """Its dies along x and y: (2,) int64."""
+        return np.array([self.columns, self.rows])
+
+    @property
+    def pitch_mm(self) -> np.ndarray:
+        """Distance from die to die along x and y: (2,) float64."""
+        return np.array([self.width_mm, self.height_mm]) / self.size
+
 
 def reticle_field(spec: DieSpec, wafer: Wafer) -> Field | None:
     """The field of a product die; None if the dies do not fit into a reticle, either way round."""
@@ -75,14 +85,14 @@ def place_dies(layout: Layout) -> WaferMap:
     field = reticle_field(product, wafer)
     centre, die_field, complete = _lattice(product, wafer, field)
     kept = complete | (wafer.partial_dies & _touches(centre, product, wafer))
-    for place in wafer.test_fields:
+    for place in (*wafer.test_fields, *wafer.blank_fields):
         kept &= (die_field != place).any(axis=1)
     centres, fields, partial = [centre[kept]], [die_field[kept]], [~complete[kept]]
     for place in wafer.test_fields:
         tests = test_field_dies_mm(layout, place)
         centres.append(tests)
         fields.append(np.tile(np.array(place, dtype=np.int32), (len(tests), 1)))
-        partial.append(np.zeros(len(tests), dtype=bool))
+        partial.append(~_fits(tests, layout.dies[1], wafer))
     position = np.concatenate(centres)
     rng = np.random.default_rng(wafer.seed)
     scales = {
@@ -120,14 +130,19 @@ def drift_at(drift: Drift, position_mm: np.ndarray, radius_mm: float) -> np.ndar
 
 
 def test_field_dies_mm(layout: Layout, place: tuple[int, int]) -> np.ndarray:
-    """Middles (k, 2) of the test dies that fill a field; k is 0 where they do not fit on it."""
+    """Middles (k, 2) of the test dies that fill a field.
+
+    k is 0 where they do not fit into the field, or reach over the usable area of a wafer without
+    partial dies.
+    """
     wafer, product, test = layout.wafer, layout.dies[0], layout.dies[1]
     field, lane = reticle_field(product, wafer), wafer.scribe_um / 1000
     die_pitch = np.array([test.width_mm + lane, test.height_mm + lane])
     count = np.floor(np.array([field.width_mm, field.height_mm]) / die_pitch + 1e-9).astype(int)
     steps = np.stack(np.meshgrid(*(np.arange(c) - (c - 1) / 2 for c in count)), axis=-1)
-    centre = _field_centre(product, wafer, field, place)
-    found = centre + steps.reshape(-1, 2) * die_pitch
+    found = _field_centre(product, wafer, field, place) + steps.reshape(-1, 2) * die_pitch
+    if wafer.partial_dies:
+        return found[_touches(found, test, wafer)]
     return found if _fits(found, test, wafer).all() else np.empty((0, 2))
 
 
@@ -135,25 +150,38 @@ def _lattice(
     spec: DieSpec, wafer: Wafer, field: Field
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Middles (n, 2), fields (n, 2), and completeness (n,) of all dies around the wafer."""
-    pitch = np.array([field.width_mm / field.columns, field.height_mm / field.rows])
-    reach = np.ceil(wafer.radius_mm / pitch).astype(int) + 1
-    index = np.stack(np.meshgrid(*(np.arange(-r, r + 1) for r in reach)), axis=-1).reshape(-1, 2)
-    offset = _offset(spec, wafer, index, pitch)
-    centre = (index + offset) * pitch
-    size = np.array([field.columns, field.rows])
-    return centre, ((index + size // 2) // size).astype(np.int32), _fits(centre, spec, wafer)
+    index = _indices(wafer, field)
+    centre = (index + _offset(spec, wafer, field)) * field.pitch_mm
+    die_field = (index - _first_index(wafer, field)) // field.size
+    return centre, die_field.astype(np.int32), _fits(centre, spec, wafer)
 
 
-def _offset(spec: DieSpec, wafer: Wafer, index: np.ndarray, pitch: np.ndarray) -> np.ndarray:
-    """The shift of the lattice, 0 or half a die each way, with the most complete dies."""
-    offsets = [np.array([x, y]) for x in (0.0, 0.5) for y in (0.0, 0.5)]
-    return max(offsets, key=lambda shift: _fits((index + shift) * pitch, spec, wafer).sum())
+def _indices(wafer: Wafer, field: Field) -> np.ndarray:
+    """All dies around the wafer by column and row (n, 2), counted from the one at the centre."""
+    reach = np.ceil(wafer.radius_mm / field.pitch_mm).astype(int) + 1
+    return np.stack(np.meshgrid(*(np.arange(-r, r + 1) for r in reach)), axis=-1).reshape(-1, 2)
+
+
+def _first_index(wafer: Wafer, field: Field) -> np.ndarray:
+    """Column and row of the first die of the field at the centre."""
+    return -(field.size // 2) - (wafer.field_shift_columns, wafer.field_shift_rows)
+
+
+def _offset(spec: DieSpec, wafer: Wafer, field: Field) -> np.ndarray:
+    """The shift of the lattice, 0 or half a die each way: as given, or with the most dies."""
+    index = _indices(wafer, field)
+    allowed = {"most": (0.0, 0.5), "die": (0.0,), "lane": (0.5,)}
+    offsets = [
+        np.array([x, y]) for x in allowed[wafer.centre_x] for y in allowed[wafer.centre_y]
+    ]
+    return max(
+        offsets, key=lambda shift: _fits((index + shift) * field.pitch_mm, spec, wafer).sum()
+    )
 
 
 def _field_centre(spec: DieSpec, wafer: Wafer, field: Field, place: tuple[int, int]) -> np.ndarray:
-    centre, die_field, _ = _lattice(spec, wafer, field)
-    members = (die_field == place).all(axis=1)
-    return centre[members].mean(axis=0) if members.any() else np.array([np.inf, np.inf])
+    first = _first_index(wafer, field) + field.size * place
+    return (first + (field.size - 1) / 2 + _offset(spec, wafer, field)) * field.pitch_mm
 
 
 def _fits(centre_mm: np.ndarray, spec: DieSpec, wafer: Wafer) -> np.ndarray:

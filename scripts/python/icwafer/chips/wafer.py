@@ -36,12 +36,18 @@ def mark_names() -> tuple[str, ...]:
     return ("notch", "flats", "none")
 
 
+def centre_names() -> tuple[str, ...]:
+    """What may stand at the wafer's centre."""
+    return ("most", "die", "lane")
+
+
 @dataclass(frozen=True)
 class Wafer:
     """A wafer full of dies.
 
     test_fields: places, in whole reticle fields from the field at the centre, that hold a test
-    die (the layout's second die) instead of products.
+    die (the layout's second die) instead of products. blank_fields: places that were not exposed
+    and stay without dies.
     """
 
     diameter_mm: int = ruled(
@@ -57,8 +63,21 @@ class Wafer:
     field_rows: int = ruled(
         "dies of one reticle field along y, 0: as many as fit", 0, 1_000, default=0
     )
+    centre_x: str = ruled(
+        "what is at the middle along x: a die, a lane, or whichever makes more complete dies",
+        choices=centre_names,
+        default="most",
+    )
+    centre_y: str = ruled("what is at the middle along y", choices=centre_names, default="most")
+    field_shift_columns: int = ruled(
+        "dies by which the grid of fields is moved along -x", 0, 1_000, default=0
+    )
+    field_shift_rows: int = ruled(
+        "dies by which the grid of fields is moved along -y", 0, 1_000, default=0
+    )
     partial_dies: bool = ruled("whether dies that the rim cuts are there", default=False)
     test_fields: tuple[tuple[int, int], ...] = ruled("where test dies stand", 0, 1_000, default=())
+    blank_fields: tuple[tuple[int, int], ...] = ruled("where no die stands", 0, 1_000, default=())
     seed: int = ruled("start of its random numbers", 0, 2**32 - 1, default=1)
     oxide: Drift = ruled("drift of the oxide's thickness", default=Drift())
     groove: Drift = ruled("drift of the groove's depth", default=Drift())

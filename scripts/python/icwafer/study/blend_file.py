@@ -12,8 +12,10 @@ from typing import Any
 
 import bpy
 
-from icwafer import blender_scene
 from icwafer.errors import SettingError
+from icwafer.scene.material import NODE, set_node
+from icwafer.scene.properties import assign
+from icwafer.scene.render import VIEW_ATTRIBUTES
 from icwafer.study import fields
 from icwafer.suggest import nearest
 
@@ -48,9 +50,7 @@ def build(settings: fields.Scene) -> bpy.types.Scene:
         elif part == "render":
             _set_render(scene, rest, value)
         elif part == "view":
-            blender_scene.assign(
-                scene.view_settings, blender_scene.VIEW_ATTRIBUTES[rest], value, setting
-            )
+            assign(scene.view_settings, VIEW_ATTRIBUTES[rest], value, setting)
     return scene
 
 
@@ -77,7 +77,7 @@ def _set_render(scene: bpy.types.Scene, name: str, value: Any) -> None:
 def _wafer_nodes() -> Iterator[tuple[bpy.types.NodeTree, bpy.types.Node]]:
     trees = [material.node_tree for material in bpy.data.materials if material.use_nodes]
     for tree in (*trees, *bpy.data.node_groups):
-        yield from ((tree, node) for node in tree.nodes if node.bl_idname == blender_scene.NODE)
+        yield from ((tree, node) for node in tree.nodes if node.bl_idname == NODE)
 
 
 def _set_nodes(setting: str, name: str, value: Any) -> None:
@@ -86,7 +86,7 @@ def _set_nodes(setting: str, name: str, value: Any) -> None:
     if not nodes:
         raise SettingError("does not exist: the file has no IC Wafer BSDF node", setting)
     for tree, node in nodes:
-        blender_scene.set_node(tree, node, {name: value})
+        set_node(tree, node, {name: value})
 
 
 def _set_data(setting: str, path: str, value: Any) -> None:
@@ -102,7 +102,7 @@ def _set_data(setting: str, path: str, value: Any) -> None:
     )
     if attribute not in names:
         raise SettingError(f"leads nowhere: {nearest(attribute, names)}", setting)
-    blender_scene.assign(owner, attribute, value, setting)
+    assign(owner, attribute, value, setting)
 
 
 def _nearest_name(path: str) -> str:

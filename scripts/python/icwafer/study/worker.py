@@ -23,8 +23,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 import bpy  # noqa: E402
 
-from icwafer import blender_image, blender_scene  # noqa: E402
 from icwafer.errors import DiskFull, IcwaferError, SettingError  # noqa: E402
+from icwafer.scene import image, picture  # noqa: E402
+from icwafer.scene.material import expect_node  # noqa: E402
 from icwafer.study import blend_file, fields, image_file  # noqa: E402
 
 _LIBC = ctypes.CDLL(None)
@@ -36,7 +37,7 @@ _FATAL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, er
 def main(replies: int) -> None:
     """Serves requests until the input ends. Raises IcwaferError in a Blender without the node."""
     _end_with_parent()
-    blender_scene.expect_node()
+    expect_node()
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # a limit on files is an error, not a crash
     with os.fdopen(replies, "w") as answer:
 
@@ -62,7 +63,7 @@ def _check(request: Mapping[str, Any]) -> dict[str, Any]:
         if fields.BLEND in scene:
             blend_file.build(scene)
         else:
-            blender_scene.check(fields.picture_of(scene))
+            picture.check(fields.picture_of(scene))
     except SettingError as error:
         return {"error": str(error), "setting": error.setting}
     except IcwaferError as error:
@@ -99,17 +100,17 @@ def _render_to(
     scene = _build(settings)
     share = scene.render.resolution_percentage / 100
     size = int(scene.render.resolution_x * share), int(scene.render.resolution_y * share)
-    blender_image.expect_space(folder, size)
+    image.expect_space(folder, size)
     raw, linear, shown = (folder / name for name in ("raw.exr", "image.exr", "image.png"))
     rendered = not _is_light(light, attributes["light_key"])
     if rendered:
         bpy.ops.render.render()
-        blender_image.save(scene, raw)
+        image.save(scene, raw)
         light = str(raw)
     image_file.copy(Path(light), linear, attributes)
     # From the file, so that it does not matter whether it was rendered or taken over.
     raw = raw.with_suffix(".png")
-    blender_image.show(scene, linear, raw)
+    image.show(scene, linear, raw)
     image_file.copy(raw, shown)
     for path in folder.glob("raw.*"):
         path.unlink()
@@ -136,7 +137,7 @@ def _build(settings: fields.Scene) -> bpy.types.Scene:
     """The scene of a job. Raises SettingError."""
     if fields.BLEND in settings:
         return blend_file.build(settings)
-    return blender_scene.build(fields.picture_of(settings))
+    return picture.build(fields.picture_of(settings))
 
 
 @contextmanager

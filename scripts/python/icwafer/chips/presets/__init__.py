@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from icwafer.chips.model import Layout
 from icwafer.chips.presets import (
+    bar_memory,
     dram,
     fpga,
     graphics,
@@ -20,6 +21,7 @@ PRESETS: dict[str, Layout] = {
     "eight-core": processor.LAYOUT,
     "graphics": graphics.LAYOUT,
     "dram": dram.LAYOUT,
+    "bar-memory": bar_memory.LAYOUT,
     "image-sensor": image_sensor.LAYOUT,
     "microcontroller": microcontroller.LAYOUT,
     "fpga": fpga.LAYOUT,

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A small memory of two bars of cells, and its wafer, after a photograph of a 200 mm wafer.
+
+Measured in the photograph "Si wafer" by Enrique Jimenez (CC BY-SA 2.0): the pitch of the dies
+relative to the wafer, the shares of bars and dark strips, the reticle fields of 3 x 5 dies, which of
+them hold test dies, which were not exposed, and where the rim cuts the pattern. The wires' period
+follows from the colours there: u d runs from 980 to 1590 nm over the wafer (orders 2 and 3), which
+is that of about 1300 nm under a lamp at a usual place. Width, depth and film are chosen so that a
+render has the strengths of the photograph's colours.
+"""
+
+from __future__ import annotations
+
+from icwafer.chips.model import DieSpec, Group, Kind, Layout
+from icwafer.chips.spread import Normal
+from icwafer.chips.tree import Cut, Macro, Node, Part, Ring, Tiles
+from icwafer.chips.wafer import Drift, Wafer
+
+_GROOVE_NM = 291.0
+
+
+def _wires(
+    name: str,
+    kind: Kind,
+    spacing_nm: float,
+    duty: float,
+    oxide_nm: float = 163.0,
+    variation: float = 0.004,
+    diffraction: float = 1.0,
+) -> Group:
+    """Blocks of equal wires. duty: width as a share of the spacing."""
+    return Group(
+        name,
+        kind,
+        spacing_nm=Normal(spacing_nm),
+        width_nm=Normal(round(duty * spacing_nm, 1)),
+        oxide_nm=Normal(oxide_nm),
+        diffraction=Normal(diffraction),
+        spacing_variation=Normal(variation),
+        groove_nm=Normal(_GROOVE_NM),
+    )
+
+
+#: Wires that are next to nothing, a mirror under oxide; and metal of many periods, pale.
+_BARE = _wires("bare", Kind.STRIP, 1000.0, 0.001)
+_LANE_METAL = _wires("lane", Kind.SEAL, 2100.0, 0.3, variation=0.3)
+_STRIP = Macro(Kind.STRIP)
+_LANE = Macro(Kind.SEAL)
+
+#: Twelve rows of cells; between them lines of amplifiers.
+_BAR = Tiles(
+    Cut(
+        1,
+        (
+            Part(Macro(Kind.MEMORY), 0.84),
+            Part(_STRIP, 0.06),
+            Part(Macro(Kind.BUS), 0.10),
+        ),
+    ),
+    columns=1,
+    rows=12,
+)
+_PADS = Tiles(Ring(26.0, _STRIP, Macro(Kind.IO)), pitch_um=230.0)
+_BARS = Cut(
+    0,
+    (
+        Part(_PADS, um=230.0),
+        Part(_STRIP, um=370.0),
+        Part(_BAR),
+        Part(_STRIP, um=440.0),
+        Part(_BAR),
+        Part(_STRIP, um=340.0),
+    ),
+)
+
+
+def _with_lanes(inside: Node, um: float) -> Cut:
+    """Scribe lanes with their metal below and above something."""
+    return Cut(1, (Part(_LANE, um=um), Part(inside), Part(_LANE, um=um)))
+
+
+TREE = _with_lanes(_BARS, 60.0)
+
+PRODUCT = DieSpec(
+    name="bar-memory",
+    floorplan="bar-memory",
+    seed=1,
+    width_mm=4.02,
+    height_mm=4.84,
+    block_um=150.0,
+    groups=(
+        _wires("cells", Kind.MEMORY, 1628.0, 0.224),
+        _wires("amplifiers", Kind.BUS, 1760.0, 0.224),
+        _wires("pads", Kind.IO, 5200.0, 0.3, variation=0.3, diffraction=0.3),
+        _LANE_METAL,
+        _BARE,
+    ),
+)
+
+
+def _array(role: str) -> Ring:
+    """A square of test structures: a frame, and columns of one pattern between dark lines."""
+    column = Cut(0, (Part(Macro(Kind.FILL, role), 0.86), Part(_STRIP, 0.14)))
+    return Ring(240.0, Macro(Kind.FILL, f"{role} frame"), Tiles(column, columns=8, rows=1))
+
+
+_CIRCUITS = Ring(
+    200.0,
+    Macro(Kind.FILL, "circuit frame"),
+    Cut(
+        0,
+        (
+            Part(Macro(Kind.LOGIC), 1.0),
+            Part(Macro(Kind.ANALOG), 0.5),
+            Part(Tiles(Macro(Kind.LOGIC), columns=2, rows=3, mirror="x"), 0.6),
+        ),
+    ),
+)
+
+
+def _row(node: Node) -> Part:
+    return Part(Ring(45.0, _LANE, Tiles(node, columns=2, rows=1)))
+
+
+#: From below: circuits, then three rows of arrays.
+TEST_TREE = Cut(
+    1,
+    (
+        _row(_CIRCUITS),
+        *(_row(Tiles(Ring(60.0, _LANE, _array(f"array {name}")), columns=1, rows=1)) for name in "cba"),
+    ),
+)
+
+#: Spacing, duty cycle, oxide, variation.
+_ARRAYS = {
+    "a": (2440.0, 0.18, 386.0, 0.02),
+    "b": (2331.0, 0.19, 119.0, 0.02),
+    "c": (2210.0, 0.18, 533.0, 0.1),
+}
+_CIRCUIT = (2328.0, 0.17, 387.0, 0.15)
+
+TEST = DieSpec(
+    name="bar-memory-test",
+    floorplan="bar-memory-test",
+    seed=11,
+    width_mm=12.2,
+    height_mm=24.5,
+    block_um=220.0,
+    groups=(
+        *(
+            _wires(f"array {name}{part}", Kind.FILL, *wires, share)
+            for name, wires in _ARRAYS.items()
+            for part, share in (("", 0.85), (" frame", 0.45))
+        ),
+        _wires("circuit frame", Kind.FILL, *_CIRCUIT),
+        _wires("logic", Kind.LOGIC, *_CIRCUIT, 0.8),
+        _wires("analog", Kind.ANALOG, *_ARRAYS["b"], 0.7),
+        _LANE_METAL,
+        _BARE,
+    ),
+)
+
+LAYOUT = Layout(
+    dies=(PRODUCT, TEST),
+    wafer=Wafer(
+        diameter_mm=200,
+        edge_exclusion_mm=2.35,
+        bevel_mm=0.4,
+        field_columns=3,
+        field_rows=5,
+        centre_x="die",
+        centre_y="die",
+        field_shift_columns=1,
+        field_shift_rows=1,
+        partial_dies=True,
+        test_fields=((-4, -2), (-3, -2), (-3, -3), (-5, 2), (-4, 2), (-4, 3)),
+        blank_fields=((-7, 2), (-7, -2), (-5, -3), (3, 4), (-3, 4)),
+        oxide=Drift(bow=0.02, tilt=0.01, tilt_direction_deg=140.0, noise=0.001),
+    ),
+)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A scene after a photograph of a wafer: "Si wafer" by Enrique Jimenez (CC BY-SA 2.0).
+
+The camera is solved from the lattice of the dies in the photograph: a pinhole camera whose middle is
+the middle of the photograph and whose lens is such that the rim becomes a circle fits the lattice
+with 0.5 pixels (RMS, of 1024 x 682). The lamp, the wires, the film and the gamma were searched
+with the model itself: the colour of 201 dies, OKLab. In the photograph only u d is seen, 980 to
+1590 nm over the wafer (orders 2 and 3); of the periods of 1300 to 1700 nm, each with the lamp that
+goes with it, the one here fits best.
+"""
+
+from __future__ import annotations
+
+from icwafer.chips.presets.bar_memory import PRODUCT
+from icwafer.pictures.model import Camera, Light, Picture, Render, View
+
+PHOTOGRAPH = Picture(
+    "A wafer of memories, lit and seen as in a photograph.",
+    PRODUCT,
+    (
+        Light(
+            "AREA",
+            (-179.5, 2.7, 460.7),
+            4e6,
+            size_mm=(183.0, 93.0),
+            turn_deg=76.4,
+        ),
+        # Low at the left: only the rounded rim sends its light on to the camera.
+        Light("CARD", (-420.0, 60.0, 110.0), 4e5, size_mm=(500.0, 120.0)),
+    ),
+    Camera(
+        position_mm=(4.0, -319.8, 204.8),
+        target_mm=(-37.5, -23.4, 8.3),
+        lens_mm=93.16,
+        roll_deg=2.1,
+        f_stop=45.0,
+    ),
+    {
+        "model": "PHYSICAL",
+        "metal": "TUNGSTEN",
+        "Coherence Width": 20.9,
+        "Wire Length": 1.45,
+        "Roughness": 0.061,
+    },
+    wafer="bar-memory",
+    view=View("Standard", "None", exposure=0.1, gamma=0.81),
+    render=Render((1024, 682), 64, bounces=1),
+)

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The material of dies: the node IC Wafer BSDF, driven by the attributes of the mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import bpy
+
+from icwafer.errors import IcwaferError
+from icwafer.pictures import NodeValue
+from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
+from icwafer.scene.properties import assign
+
+NODE = "ShaderNodeBsdfICWafer"
+
+#: The attributes of instances on a wafer by what they change, and what each attribute of a block
+#: changes with: value x (1 + drift).
+DRIFTS = {"oxide": "ic_oxide_drift", "groove": "ic_groove_drift", "width": "ic_width_drift"}
+DRIFTING = {
+    "ic_oxide_nm": "oxide",
+    "ic_groove_nm": "groove",
+    "ic_width_nm": "width",
+    "ic_cross_width_nm": "width",
+}
+
+#: Metal without a regular pattern: what its wires and gaps reflect on average, over many angles.
+IRREGULAR_COLOUR = (0.10, 0.10, 0.11)
+IRREGULAR_ROUGHNESS = 0.4
+
+
+def expect_node() -> None:
+    """Raises IcwaferError in a Blender without the node."""
+    if not hasattr(bpy.types, NODE):
+        raise IcwaferError(
+            "this Blender has no IC Wafer BSDF node: build one that has, "
+            "with scripts/icwafer build blender"
+        )
+
+
+def wafer_material(values: Mapping[str, NodeValue]) -> bpy.types.Material:
+    """A material whose IC Wafer BSDF takes its wires from the attributes of the mesh.
+
+    values: of the node's inputs and properties; an input that is named here takes no attribute.
+    """
+    material = bpy.data.materials.new("Wafer")
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    wafer = tree.nodes.new(NODE)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.location.x = 300
+    tree.links.new(wafer.outputs["BSDF"], output.inputs["Surface"])
+    for row, (attribute, socket) in enumerate(SOCKET_OF_ATTRIBUTE.items()):
+        source = _attribute(tree, attribute, (-300, -200 * row))
+        tree.links.new(source.outputs["Fac"], wafer.inputs[socket])
+    set_node(tree, wafer, values)
+    return material
+
+
+def chip_material(name: str, values: Mapping[str, NodeValue] | None = None) -> bpy.types.Material:
+    """A material for chips of the model PHYSICAL, driven by the attributes of mesh and instance.
+
+    The share of a block that diffracts is its `ic_diffraction`; the rest is metal without a regular
+    pattern, which scatters light softly. Film, grooves and wires follow the drift of a wafer.
+    values: of the node's inputs and properties; an input that is named here takes no attribute.
+    """
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    wafer = tree.nodes.new(NODE)
+    rest = tree.nodes.new("ShaderNodeBsdfGlossy")
+    rest.inputs["Color"].default_value = (*IRREGULAR_COLOUR, 1.0)
+    rest.inputs["Roughness"].default_value = IRREGULAR_ROUGHNESS
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    for node, place in ((rest, (0, 150)), (wafer, (0, 0)), (mix, (300, 0)), (output, (500, 0))):
+        node.location = place
+    tree.links.new(rest.outputs["BSDF"], mix.inputs[1])
+    tree.links.new(wafer.outputs["BSDF"], mix.inputs[2])
+    tree.links.new(mix.outputs["Shader"], output.inputs["Surface"])
+    drifts = {
+        quantity: _drift_factor(tree, attribute, (-700, -250 * row))
+        for row, (quantity, attribute) in enumerate(DRIFTS.items())
+    }
+    for row, (attribute, socket) in enumerate(SOCKET_OF_ATTRIBUTE.items()):
+        value = _attribute(tree, attribute, (-500, -200 * row)).outputs["Fac"]
+        quantity = DRIFTING.get(attribute)
+        if quantity:
+            scaled = _math(tree, "MULTIPLY", (-250, -200 * row))
+            tree.links.new(value, scaled.inputs[0])
+            tree.links.new(drifts[quantity], scaled.inputs[1])
+            value = scaled.outputs[0]
+        tree.links.new(
+            value, mix.inputs["Fac"] if socket == "Diffraction" else wafer.inputs[socket]
+        )
+    set_node(tree, wafer, values or {})
+    return material
+
+
+def _attribute(
+    tree: bpy.types.NodeTree, name: str, place: tuple[float, float], kind: str = "GEOMETRY"
+) -> bpy.types.Node:
+    node = tree.nodes.new("ShaderNodeAttribute")
+    node.attribute_name, node.attribute_type, node.location = name, kind, place
+    return node
+
+
+def _math(tree: bpy.types.NodeTree, operation: str, place: tuple[float, float]) -> bpy.types.Node:
+    node = tree.nodes.new("ShaderNodeMath")
+    node.operation, node.location = operation, place
+    return node
+
+
+def _drift_factor(
+    tree: bpy.types.NodeTree, attribute: str, place: tuple[float, float]
+) -> bpy.types.NodeSocket:
+    """1 + the drift of the instance, which is 0 where a die does not stand on a wafer."""
+    drift = _attribute(tree, attribute, (place[0] - 200, place[1]), "INSTANCER")
+    one_more = _math(tree, "ADD", place)
+    one_more.inputs[1].default_value = 1.0
+    tree.links.new(drift.outputs["Fac"], one_more.inputs[0])
+    return one_more.outputs[0]
+
+
+def set_node(
+    tree: bpy.types.NodeTree, wafer: bpy.types.Node, values: Mapping[str, NodeValue]
+) -> None:
+    """Gives inputs (by name) and properties of an IC Wafer BSDF a value, linked or not."""
+    for name, value in values.items():
+        if name in wafer.inputs:
+            for link in wafer.inputs[name].links:
+                tree.links.remove(link)
+            opaque = wafer.inputs[name].type == "RGBA"
+            wafer.inputs[name].default_value = (*value, 1.0) if opaque else value
+        else:
+            assign(wafer, name, value, f"node.{name}")

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Meshes from arrays of polygons."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+
+def polygon_mesh(
+    name: str, points: np.ndarray, polygons: Sequence[np.ndarray], edges: bool = True
+) -> bpy.types.Mesh:
+    """A mesh of n points and of polygons between them.
+
+    points: (n, 3), in mm. polygons: each (m, k), m polygons of k corners as indices of points,
+    counter-clockwise as seen from outside; faces are in this order.
+    """
+    corners = np.concatenate([part.ravel() for part in polygons]).astype(np.int32)
+    sizes = np.repeat(
+        [part.shape[1] for part in polygons], [len(part) for part in polygons]
+    ).astype(np.int32)
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(points))
+    mesh.vertices.foreach_set("co", np.ascontiguousarray(points, dtype=np.float32).ravel())
+    mesh.loops.add(len(corners))
+    mesh.loops.foreach_set("vertex_index", corners)
+    mesh.polygons.add(len(sizes))
+    mesh.polygons.foreach_set("loop_start", np.cumsum(sizes, dtype=np.int32) - sizes)
+    mesh.polygons.foreach_set("loop_total", sizes)
+    mesh.update(calc_edges=edges)
+    return mesh
+
+
+def add_attribute(
+    mesh: bpy.types.Mesh, name: str, domain: str, values: np.ndarray, kind: str = "FLOAT"
+) -> None:
+    """Gives each face or point (`domain` FACE or POINT) its value; kind is FLOAT or INT."""
+    mesh.attributes.new(name, kind, domain).data.foreach_set("value", values)

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Wafers: one object whose dies are instances, so that a wafer costs the memory of one die.
+
+The object's mesh is the disc of silicon and a loose point where each die stands; a geometry-nodes
+modifier puts the dies on the points. The points carry `ic_die` (1 for the first kind of die, 0 for
+the disc's own points) and the drift of the place, `ic_oxide_drift` and so on, which the material
+reads from the instance (Attribute node, type Instancer).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import bpy
+import numpy as np
+
+from icwafer.chips.clip import Pieces, cut_to_usable
+from icwafer.chips.die import generate
+from icwafer.chips.model import Die, Layout
+from icwafer.chips.outline import edge_profile_mm, outline_mm
+from icwafer.chips.placement import WaferMap, place_dies
+from icwafer.chips.wafer import Wafer
+from icwafer.errors import IcwaferError
+from icwafer.scene.material import DRIFTS
+from icwafer.scene.mesh import GAP_NM, STEP_MM, block_faces_mm, die_mesh
+from icwafer.scene.parts import Parts
+from icwafer.scene.polygons import add_attribute, polygon_mesh
+
+#: The node group that puts dies on points, one for all wafers of a file.
+GROUP = "IC Wafer Dies"
+#: Told now and then how far the work is, 0 to 1.
+Progress = Callable[[float], None]
+
+
+def add_wafer(
+    layout: Layout,
+    collection: bpy.types.Collection,
+    parts: Parts,
+    name: str = "Wafer",
+    gap_nm: float = GAP_NM,
+    progress: Progress = lambda _: None,
+) -> bpy.types.Object:
+    """Links a wafer full of dies, as one object, to a collection.
+
+    The front lies in the plane z = 0 in mm, the wafer's centre is the origin, notch or flat at -y.
+    Raises IcwaferError where the layout has no wafer.
+    """
+    if layout.wafer is None:
+        raise IcwaferError("the layout has no wafer: give it a table [wafer]")
+    places = place_dies(layout)
+    kinds, kind_of = _die_kinds(layout, places, parts, gap_nm, progress)
+    mesh = _disc_mesh(name, layout, places, kind_of)
+    for material in (parts.silicon, parts.lane):
+        mesh.materials.append(material)
+    wafer = bpy.data.objects.new(name, mesh)
+    collection.objects.link(wafer)
+    dies = bpy.data.collections.new(f"{name} dies")
+    for die in kinds:
+        dies.objects.link(die)
+    modifier = wafer.modifiers.new("Dies", "NODES")
+    modifier.node_group = _instancing_group()
+    modifier[modifier.node_group.inputs["Dies"].identifier] = dies
+    progress(1.0)
+    return wafer
+
+
+def _die_kinds(
+    layout: Layout,
+    places: WaferMap,
+    parts: Parts,
+    gap_nm: float,
+    progress: Progress,
+) -> tuple[list[bpy.types.Object], np.ndarray]:
+    """An object for each different die, and for each place the index of its object.
+
+    Every design is one; every partial die is another, for each one is cut elsewhere. Nothing is
+    made for partial dies of which nothing is left; their index is -1.
+    """
+    kinds: list[bpy.types.Object] = []
+    kind_of = np.full(len(places), -1)
+
+    def add(mesh: bpy.types.Mesh) -> None:
+        for material in (parts.blocks, parts.ground):
+            mesh.materials.append(material)
+        # Geometry nodes pick by place in alphabetical order.
+        kinds.append(bpy.data.objects.new(f"Die {len(kinds):05}", mesh))
+
+    partial = np.flatnonzero(places.partial)
+    steps = len(layout.dies) + len(partial)
+    for design, spec in enumerate(layout.dies):
+        complete = (places.die == design) & ~places.partial
+        here = [index for index in partial if places.die[index] == design]
+        if not complete.any() and not here:
+            continue
+        die = generate(spec)
+        if complete.any():
+            kind_of[complete] = len(kinds)
+            add(die_mesh(die, gap_nm, ground=True))
+        progress((design + 1) / (steps + 1))
+        faces = block_faces_mm(die, gap_nm) if here else None
+        for done, index in enumerate(here):
+            mesh = _partial_mesh(die, faces, gap_nm, places.centre_mm[index], layout.wafer)
+            if mesh:
+                kind_of[index] = len(kinds)
+                add(mesh)
+            progress((design + 1 + done) / (steps + 1))
+    return kinds, kind_of
+
+
+def _partial_mesh(
+    die: Die, faces_mm: np.ndarray, gap_nm: float, centre_mm: np.ndarray, wafer: Wafer
+) -> bpy.types.Mesh | None:
+    """What of a die lies on the usable area, around the middle of the die."""
+    half = np.array([die.spec.width_mm, die.spec.height_mm]) / 2
+    ground = cut_to_usable(np.r_[centre_mm - half, centre_mm + half][None], wafer)
+    blocks = cut_to_usable(faces_mm + np.r_[centre_mm, centre_mm], wafer)
+    if not ground.cut:
+        return None
+    moved = tuple((index, polygon - centre_mm) for index, polygon in blocks.cut)
+    return die_mesh(
+        die,
+        gap_nm,
+        ground=True,
+        pieces=Pieces(blocks.whole, moved),
+        ground_piece=ground.cut[0][1] - centre_mm,
+    )
+
+
+def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray) -> bpy.types.Mesh:
+    """The disc, the ground of the scribe lanes on it, and a loose point for each die."""
+    wafer = layout.wafer
+    rings = [
+        np.insert(outline_mm(wafer, inset), 2, height - 2 * STEP_MM, axis=1)
+        for inset, height in edge_profile_mm(wafer)
+    ]
+    around = len(rings[0])
+    index = np.arange(around)
+    following = np.roll(index, -1)
+    sides = [
+        np.stack([index, index + around, following + around, following], axis=1) + ring * around
+        for ring in range(len(rings) - 1)
+    ]
+    back = index[::-1] + (len(rings) - 1) * around
+    lanes = _lanes_mm(layout, places)
+    stands = np.flatnonzero(kind_of >= 0)
+    lane_points = np.insert(np.concatenate([*lanes, np.empty((0, 2))]), 2, -1.5 * STEP_MM, axis=1)
+    die_points = np.insert(places.centre_mm[stands], 2, 0.0, axis=1)
+    disc = around * len(rings)
+    first = disc + np.cumsum([0, *map(len, lanes)])
+    mesh = polygon_mesh(
+        name,
+        np.concatenate([*rings, lane_points, die_points]),
+        [
+            index[None],
+            back[None],
+            *sides,
+            *(np.arange(at, at + len(lane))[None] for at, lane in zip(first, lanes)),
+        ],
+    )
+    edge = np.zeros(len(mesh.polygons), dtype=bool)
+    edge[2 : 2 + around * len(sides)] = True  # the faces are flat, the edge is round
+    mesh.polygons.foreach_set("use_smooth", edge)
+    mesh.polygons.foreach_set(
+        "material_index", (np.arange(len(edge)) >= 2 + around * len(sides)).astype(np.int32)
+    )
+
+    def on_points(values: np.ndarray) -> np.ndarray:
+        return np.r_[np.zeros(disc + len(lane_points)), values[stands]]
+
+    add_attribute(mesh, "ic_die", "POINT", on_points(kind_of + 1).astype(np.int32), "INT")
+    for quantity, attribute in DRIFTS.items():
+        drift = getattr(places, f"{quantity}_scale").astype(np.float64) - 1.0
+        add_attribute(mesh, attribute, "POINT", on_points(drift))
+    return mesh
+
+
+def _lanes_mm(layout: Layout, places: WaferMap) -> list[np.ndarray]:
+    """The ground around each die with half of the lanes beside it, cut by the rim: (k, 2) each."""
+    sizes = np.array([(die.width_mm, die.height_mm) for die in layout.dies])[places.die]
+    half = (sizes + layout.wafer.scribe_um / 1000) / 2
+    rects = np.concatenate([places.centre_mm - half, places.centre_mm + half], axis=1)
+    pieces = cut_to_usable(rects, layout.wafer)
+    whole: Sequence[np.ndarray] = rects[pieces.whole][:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
+    return [*whole, *(polygon for _, polygon in pieces.cut)]
+
+
+def _instancing_group() -> bpy.types.NodeTree:
+    """Puts the objects of a collection on points: the one that `ic_die` names, counted from 1."""
+    group = bpy.data.node_groups.get(GROUP)
+    if group is not None:
+        return group
+    group = bpy.data.node_groups.new(GROUP, "GeometryNodeTree")
+    group.inputs.new("NodeSocketGeometry", "Geometry")
+    group.inputs.new("NodeSocketCollection", "Dies").description = "The different dies, by name"
+    group.outputs.new("NodeSocketGeometry", "Geometry")
+    given = group.nodes.new("NodeGroupInput")
+    result = group.nodes.new("NodeGroupOutput")
+    number = group.nodes.new("GeometryNodeInputNamedAttribute")
+    number.data_type = "INT"
+    number.inputs["Name"].default_value = "ic_die"
+    pick = group.nodes.new("ShaderNodeMath")
+    pick.operation = "SUBTRACT"
+    pick.inputs[1].default_value = 1.0
+    dies = group.nodes.new("GeometryNodeCollectionInfo")
+    dies.inputs["Separate Children"].default_value = True
+    dies.inputs["Reset Children"].default_value = True
+    instances = group.nodes.new("GeometryNodeInstanceOnPoints")
+    instances.inputs["Pick Instance"].default_value = True
+    join = group.nodes.new("GeometryNodeJoinGeometry")
+    for column, row, node in (
+        (0, 0, given),
+        (0, -250, number),
+        (1, -150, dies),
+        (1, -400, pick),
+        (2, -100, instances),
+        (3, 0, join),
+        (4, 0, result),
+    ):
+        node.location = (200 * column, row)
+    value = number.outputs[4]  # the integer one of outputs that all have one name
+    for source, target in (
+        (given.outputs["Geometry"], join.inputs["Geometry"]),
+        (given.outputs["Geometry"], instances.inputs["Points"]),
+        (given.outputs["Dies"], dies.inputs["Collection"]),
+        (value, pick.inputs[0]),
+        (value, instances.inputs["Selection"]),
+        (pick.outputs[0], instances.inputs["Instance Index"]),
+        (dies.outputs[0], instances.inputs["Instance"]),
+        (instances.outputs["Instances"], join.inputs["Geometry"]),
+        (join.outputs["Geometry"], result.inputs["Geometry"]),
+    ):
+        group.links.new(source, target)
+    return group
