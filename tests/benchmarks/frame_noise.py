@@ -3,8 +3,8 @@
 
     scripts/icwafer blender -b --factory-startup -P tests/benchmarks/frame_noise.py
 
-A plane under a sky and an area lamp; the same samples for all materials. The glossy lobe (Beckmann
-and GGX) has the widths of the node's mirror order across and along the wires. Noise is the standard
+A plane under a sky and an area lamp; the same samples for all materials. The glossy lobe (GGX)
+has the widths of the node's mirror order across and along the wires. Noise is the standard
 deviation over renders with different seeds, as a root mean square over the lit pixels, divided by
 their mean: of the luminance, and of the three channels. Lit are the pixels above half of the frame's
 mean.
@@ -34,7 +34,7 @@ def mirror_width(width_um: float, roughness: float) -> float:
     return math.hypot(0.376e-3 * WAVELENGTH_NM / width_um, math.sqrt(2) * roughness**2)
 
 
-def glossy(coherence_um: float, length_um: float, roughness: float, distribution: str):
+def glossy(coherence_um: float, length_um: float, roughness: float) -> bpy.types.Material:
     """A microfacet lobe as wide: slopes deflect by twice their angle, so sigma = sqrt(2) alpha.
 
     Along the tangent, the X axis as for the node's wires, alpha is r^2 (1 - a), across r^2/(1 - a).
@@ -45,7 +45,7 @@ def glossy(coherence_um: float, length_um: float, roughness: float, distribution
     return frame_scene.material(
         "ShaderNodeBsdfAnisotropic",
         {
-            "distribution": distribution,
+            "distribution": "GGX",
             "Roughness": (along * across) ** 0.25,
             "Anisotropy": 1.0 - math.sqrt(along / across) if along < across
             else math.sqrt(across / along) - 1.0,
@@ -80,8 +80,7 @@ WIDTHS = {"Coherence Width": 10.0, "Wire Length": 2.0, "Roughness": 0.05}
 scene, plane = frame_scene.scene(SIZE, SAMPLES)
 scene.render.use_persistent_data = False  # which would keep the first seed
 materials = {
-    "Beckmann": glossy(*WIDTHS.values(), "BECKMANN"),
-    "GGX": glossy(*WIDTHS.values(), "GGX"),
+    "GGX": glossy(*WIDTHS.values()),
     **{name: frame_scene.material(frame_scene.NODE, values | WIDTHS)
        for name, values in MATERIALS.items()},
 }  # fmt: skip

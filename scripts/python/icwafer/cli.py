@@ -21,6 +21,7 @@ from icwafer import build, doctor, layout_command, packages, paths, render, sour
 from icwafer.compare import command as compare_command
 from icwafer.compare import merge as merge_command
 from icwafer.errors import IcwaferError
+from icwafer.report import animate as animate_command
 from icwafer.report import command as report_command
 from icwafer.study import command as study_command
 
@@ -138,6 +139,7 @@ def _parser() -> _Parser:
     compare_command.register(add)
     merge_command.register(add)
     report_command.register(add)
+    animate_command.register(add)
     return parser
 
 
