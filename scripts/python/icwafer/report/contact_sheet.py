@@ -45,7 +45,7 @@ def contact_sheet(
     down = _thinned(swept[1], _MOST_CELLS) if len(swept) > 1 else None
     sheets = []
     others = swept[2:]
-    for chosen in _some(list(itertools.product(*(axis.values for axis in others))), _MOST_SHEETS):
+    for chosen in spread_over(list(itertools.product(*(axis.values for axis in others))), _MOST_SHEETS):
         fixed = dict(zip((axis.name for axis in others), chosen))
         title = ", ".join(
             f"{axis.name} {_text(value)} {axis.unit}".strip()
@@ -70,7 +70,7 @@ def contact_sheet(
     return sheets
 
 
-def _some(values: Sequence[Any], most: int) -> Sequence[Any]:
+def spread_over(values: Sequence[Any], most: int) -> Sequence[Any]:
     """At most so many values, evenly spread, the first and the last among them."""
     if len(values) <= most:
         return values
@@ -78,7 +78,7 @@ def _some(values: Sequence[Any], most: int) -> Sequence[Any]:
 
 
 def _thinned(axis: Axis, most: int) -> Axis:
-    return replace(axis, values=tuple(_some(axis.values, most)))
+    return replace(axis, values=tuple(spread_over(axis.values, most)))
 
 
 def _sheet(
