@@ -41,7 +41,9 @@ set(ICWAFER_UNITY_TARGETS
 # compiles little else. Some are known by a common part of their names.
 set(ICWAFER_UNITY_EXCEPT
   FFMPEG.cpp
+  JackLibrary.cpp
   PluginManager.cpp
+  PulseAudioLibrary.cpp
   asset_catalog.cc
   asset_library.cc
   attribute_access.cc

@@ -38,23 +38,77 @@ struct PolarisedFilmPair {
 
 namespace film_detail {
 
+/* Fresnel's amplitudes P / Q at the upper face and N / D at the lower. */
 template<typename Real>
-ICW_DEVICE FilmPair<Real> film_pair(const Real p,
-                                    const Real q,
-                                    const Complex<Real> n,
-                                    const Complex<Real> d,
-                                    const Complex<Real> ridge_trip,
-                                    const Complex<Real> groove_trip,
+struct Faces {
+  Real p, q;
+  Complex<Real> n, d;
+};
+
+/* What the formulas are made of. */
+template<typename Real>
+struct Films {
+  Faces<Real> s, p;
+  Complex<Real> ridge_trip, groove_trip;
+};
+
+template<typename Real>
+ICW_DEVICE Films<Real> films(const Real cos_air,
+                             const Real film_ior,
+                             const Complex<Real> metal,
+                             const Real ridge_waves,
+                             const Real groove_waves)
+{
+  const Real sin_squared = 1.0f - cos_air * cos_air;
+  const Real film_squared = film_ior * film_ior;
+  const Complex<Real> metal_squared = metal * metal;
+  /* n cos theta in the film and in the metal; in air it is the cosine. Written so that a film of
+   * index 1 keeps it at grazing light too. */
+  const Real film = real_sqrt((film_squared - 1.0f) + cos_air * cos_air);
+  const Complex<Real> below = decaying_sqrt<Real>(
+      {metal_squared.re - sin_squared, metal_squared.im});
+  const Real film_cos = film_squared * cos_air;
+  const Complex<Real> metal_film = film * metal_squared, film_below = film_squared * below;
+  return {{cos_air - film,
+           cos_air + film,
+           {film - below.re, -below.im},
+           {film + below.re, below.im}},
+          {film_cos - film, film_cos + film, metal_film - film_below, metal_film + film_below},
+          unit_turns(2.0f * film * ridge_waves),
+          unit_turns(2.0f * film * groove_waves)};
+}
+
+/* |r - r'|^2 but for its divisor. */
+template<typename Real>
+ICW_DEVICE Real contrast_above(const Faces<Real> &faces, const Real chord_squared)
+{
+  const Real face = faces.q * faces.q - faces.p * faces.p;
+  return face * face * norm(faces.n) * norm(faces.d) * chord_squared;
+}
+
+template<typename Real>
+ICW_DEVICE FilmPair<Real> film_pair(const Faces<Real> &faces,
+                                    const Films<Real> &films,
                                     const Real chord_squared)
 {
-  const Complex<Real> pd = p * d, qd = q * d;
-  const Complex<Real> ridge = n * ridge_trip, groove = n * groove_trip;
-  const Real below_ridge = 1.0f / norm(qd + p * ridge);
-  const Real below_groove = 1.0f / norm(qd + p * groove);
-  const Real face = q * q - p * p;
-  return {norm(pd + q * ridge) * below_ridge,
-          norm(pd + q * groove) * below_groove,
-          face * face * norm(n) * norm(d) * chord_squared * below_ridge * below_groove};
+  const Complex<Real> pd = faces.p * faces.d, qd = faces.q * faces.d;
+  const Complex<Real> ridge = faces.n * films.ridge_trip, groove = faces.n * films.groove_trip;
+  const Real per_ridge = 1.0f / norm(qd + faces.p * ridge);
+  const Real per_groove = 1.0f / norm(qd + faces.p * groove);
+  return {norm(pd + faces.q * ridge) * per_ridge,
+          norm(pd + faces.q * groove) * per_groove,
+          contrast_above(faces, chord_squared) * (per_ridge * per_groove)};
+}
+
+template<typename Real>
+ICW_DEVICE Real film_contrast(const Faces<Real> &faces,
+                              const Films<Real> &films,
+                              const Real chord_squared)
+{
+  const Complex<Real> qd = faces.q * faces.d;
+  return contrast_above(faces, chord_squared) /
+         (norm(qd + faces.p * (faces.n * films.ridge_trip)) *
+          norm(qd + faces.p * (faces.n * films.groove_trip)));
 }
 
 }  // namespace film_detail
@@ -70,35 +124,24 @@ ICW_DEVICE_LARGE PolarisedFilmPair<Real> film_on_metal(const Real cos_air,
                                                        const Real ridge_waves,
                                                        const Real groove_waves)
 {
-  const Real sin_squared = 1.0f - cos_air * cos_air;
-  const Real film_squared = film_ior * film_ior;
-  const Complex<Real> metal_squared = metal * metal;
-  /* n cos theta in the film and in the metal; in air it is the cosine. Written so that a film of
-   * index 1 keeps it at grazing light too. */
-  const Real film = real_sqrt((film_squared - 1.0f) + cos_air * cos_air);
-  const Complex<Real> below = decaying_sqrt<Real>(
-      {metal_squared.re - sin_squared, metal_squared.im});
+  using namespace film_detail;
+  const Films<Real> f = films(cos_air, film_ior, metal, ridge_waves, groove_waves);
+  const Real chord_squared = norm(f.ridge_trip - f.groove_trip);
+  return {film_pair(f.s, f, chord_squared), film_pair(f.p, f, chord_squared)};
+}
 
-  const Complex<Real> ridge_trip = unit_turns(2.0f * film * ridge_waves);
-  const Complex<Real> groove_trip = unit_turns(2.0f * film * groove_waves);
-  const Real chord_squared = norm(ridge_trip - groove_trip);
-
-  const Real film_cos = film_squared * cos_air;
-  const Complex<Real> metal_film = film * metal_squared, film_below = film_squared * below;
-  return {film_detail::film_pair<Real>(cos_air - film,
-                                       cos_air + film,
-                                       {film - below.re, -below.im},
-                                       {film + below.re, below.im},
-                                       ridge_trip,
-                                       groove_trip,
-                                       chord_squared),
-          film_detail::film_pair<Real>(film_cos - film,
-                                       film_cos + film,
-                                       metal_film - film_below,
-                                       metal_film + film_below,
-                                       ridge_trip,
-                                       groove_trip,
-                                       chord_squared)};
+/* |r_ridge - r_groove|^2 only, the mean of both polarisations. */
+template<typename Real>
+ICW_DEVICE_LARGE Real film_contrast(const Real cos_air,
+                                    const Real film_ior,
+                                    const Complex<Real> metal,
+                                    const Real ridge_waves,
+                                    const Real groove_waves)
+{
+  using namespace film_detail;
+  const Films<Real> f = films(cos_air, film_ior, metal, ridge_waves, groove_waves);
+  const Real chord_squared = norm(f.ridge_trip - f.groove_trip);
+  return 0.5f * (film_contrast(f.s, f, chord_squared) + film_contrast(f.p, f, chord_squared));
 }
 
 /* The mean of both polarisations. */

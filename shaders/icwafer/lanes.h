@@ -86,6 +86,29 @@ ICW_DEVICE Lanes lanes_exp2(const Lanes x)
   return series * (Lanes)bits;
 }
 
+ICW_DEVICE Lanes lanes_max(const Lanes a, const Lanes b)
+{
+  return a > b ? a : b;
+}
+
+/* Halves, quarters and neighbours change places, so that after three steps every lane has met all
+ * others. */
+ICW_DEVICE float lanes_largest(Lanes x)
+{
+  x = lanes_max(x, __builtin_shufflevector(x, x, 4, 5, 6, 7, 0, 1, 2, 3));
+  x = lanes_max(x, __builtin_shufflevector(x, x, 2, 3, 0, 1, 6, 7, 4, 5));
+  x = lanes_max(x, __builtin_shufflevector(x, x, 1, 0, 3, 2, 5, 4, 7, 6));
+  return x[0];
+}
+
+ICW_DEVICE float lanes_sum(Lanes x)
+{
+  x += __builtin_shufflevector(x, x, 4, 5, 6, 7, 0, 1, 2, 3);
+  x += __builtin_shufflevector(x, x, 2, 3, 0, 1, 6, 7, 4, 5);
+  x += __builtin_shufflevector(x, x, 1, 0, 3, 2, 5, 4, 7, 6);
+  return x[0];
+}
+
 #else
 
 constexpr int lane_count = 1;
@@ -132,13 +155,6 @@ ICW_DEVICE Lanes lanes_exp2(const Lanes x)
   return exp2f(x);
 }
 
-#endif
-
-ICW_DEVICE Lanes lanes_min(const Lanes a, const Lanes b)
-{
-  return a < b ? a : b;
-}
-
 ICW_DEVICE Lanes lanes_max(const Lanes a, const Lanes b)
 {
   return a > b ? a : b;
@@ -146,20 +162,19 @@ ICW_DEVICE Lanes lanes_max(const Lanes a, const Lanes b)
 
 ICW_DEVICE float lanes_largest(const Lanes x)
 {
-  float largest = get_lane(x, 0);
-  for (int lane = 1; lane < lane_count; lane++) {
-    largest = larger(largest, get_lane(x, lane));
-  }
-  return largest;
+  return x;
 }
 
 ICW_DEVICE float lanes_sum(const Lanes x)
 {
-  float sum = get_lane(x, 0);
-  for (int lane = 1; lane < lane_count; lane++) {
-    sum += get_lane(x, lane);
-  }
-  return sum;
+  return x;
+}
+
+#endif
+
+ICW_DEVICE Lanes lanes_min(const Lanes a, const Lanes b)
+{
+  return a < b ? a : b;
 }
 
 /* exp(-x^2 / 2), 0 below 1e-18. */

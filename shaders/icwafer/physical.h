@@ -42,6 +42,7 @@
 #include "order_sum.h"
 #include "oxides.h"
 #include "spectrum.h"
+#include "tables.h"
 
 namespace icwafer {
 
@@ -153,6 +154,9 @@ constexpr float blue_nm = 420.0f;
 constexpr float gaussian_bandwidth = 3.8f;
 constexpr float lobe_reach = 4.5f;
 constexpr float mirror_reach = 5.5f;
+/* A narrow lobe whose middle is where the eye sees well matters no further than this. */
+constexpr float bright_first_nm = 425.0f, bright_last_nm = 670.0f, bright_sigma_nm = 16.0f;
+constexpr float bright_reach = 3.3f;
 /* Steps above this are rounded down to whole nanometres. */
 constexpr float whole_step_nm = 2.0f;
 /* More orders than this are not summed one by one. */
@@ -204,6 +208,17 @@ ICW_DEVICE FilmPair<Lanes> levels(const PhysicalParams &p,
       cosine, film_ior, metal, p.oxide_nm * per_nm, (p.oxide_nm + p.groove_nm) * per_nm));
 }
 
+/* Only how much they differ. */
+ICW_DEVICE Lanes levels_contrast(const PhysicalParams &p,
+                                 const Lanes cosine,
+                                 const Lanes film_ior,
+                                 const Complex<Lanes> metal,
+                                 const Lanes per_nm)
+{
+  return film_contrast<Lanes>(
+      cosine, film_ior, metal, p.oxide_nm * per_nm, (p.oxide_nm + p.groove_nm) * per_nm);
+}
+
 /* What is the same for all wavelengths of one evaluation. u and v are |u|, |v|: the lattices have
  * no preferred side. */
 struct Pair {
@@ -221,15 +236,15 @@ constexpr int group_limit = 9;
 struct OrderGroups {
   int count;
   float order[group_limit], reach[group_limit], weight[group_limit];
-  /* Twice U^2 of all orders beyond, and of all orders. */
-  float rest, total;
+  /* Twice U^2 of all orders beyond. */
+  float rest;
 };
 
 ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
 {
   OrderGroups groups;
   groups.count = 0;
-  groups.rest = groups.total = 0.0f;
+  groups.rest = 0.0f;
   if (!(lattice.spacing_nm > 0.0f)) {
     return groups;
   }
@@ -256,27 +271,7 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
     first = last + 1;
   }
   groups.rest = float(first) <= horizon ? square(open) * larger(left, 0.0f) : 0.0f;
-  groups.total = groups.rest;
-  for (int group = 0; group < groups.count; group++) {
-    groups.total += 2.0f * groups.weight[group];
-  }
   return groups;
-}
-
-/* What bounds the mirror order: all others, for light from the pair's middle direction. */
-struct MirrorBound {
-  OrderGroups across, along;
-  /* U^2 of the orders with m and n, few and taken at the most that they can be. */
-  float diagonal;
-};
-
-ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p)
-{
-  const bool cross = p.along.spacing_nm > 0.0f;
-  return {order_groups(p.across, cross ? 1.0f - p.along.duty : 1.0f),
-          order_groups(p.along, 1.0f - p.across.duty),
-          cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
-                  0.0f};
 }
 
 /* The most that the contrast can be within a group of orders, and its mean over lobes, from what
@@ -302,80 +297,137 @@ ICW_DEVICE Lanes largest_contrast(const PhysicalParams &p,
   return group + lanes_max(2.0f - group, lanes(0.0f)) * lanes_min(0.5f * s * s, lanes(1.0f));
 }
 
+/* One axis of a mirror order's bound. */
+struct BoundAxis {
+  OrderGroups groups;
+  float spacing_nm;
+  /* The pair's middle direction along this axis and along the other. */
+  float mid, mid_other;
+};
+
+/* The most that a group of orders reflects on one side. */
+ICW_DEVICE_LARGE Lanes largest_power(const PhysicalParams &p,
+                                     const BoundAxis &axis,
+                                     const int group,
+                                     const float side,
+                                     const float cosine,
+                                     const float sigma_0,
+                                     const Lanes film_ior,
+                                     const Complex<Lanes> metal,
+                                     const Lanes per_nm)
+{
+  const Lanes per_order = 1.0f / (axis.spacing_nm * per_nm);
+  /* How far from the normal an order is, and its cosine, 0 below the horizon. */
+  const auto sine_of = [&](const float order) {
+    const Lanes sine = axis.mid + side * order * per_order;
+    return lanes_sqrt(square(axis.mid_other) + sine * sine);
+  };
+  const auto cosine_of = [](const Lanes sine) {
+    return lanes_sqrt(lanes_max(1.0f - sine * sine, lanes(0.0f)));
+  };
+  const float order = axis.groups.order[group], reach = axis.groups.reach[group];
+  const Lanes middle = sine_of(order);
+  const Lanes first = reach > 0.0f ? sine_of(order - reach) : middle;
+  const Lanes last = reach > 0.0f ? sine_of(order + reach) : middle;
+  const Lanes sigma = sigma_0 + p.variation * order * per_order;
+  /* The part of a lobe that may be above the horizon, at least. */
+  const Lanes above = lanes_min(
+      lanes_max(1.0f + 0.5f * (1.0f - lanes_min(first, last)) / sigma, lanes(0.0f)), lanes(1.0f));
+  const Lanes cos_middle = cosine_of(middle);
+  const Lanes cos_first = cosine_of(first), cos_last = cosine_of(last);
+  const Lanes group_range = lanes_max(lanes_max(cos_first, cos_last) - cos_middle,
+                                      cos_middle - lanes_min(cos_first, cos_last));
+  const Lanes lobe_range = 0.5f * (cosine_of(lanes_max(middle - sigma, lanes(0.0f))) -
+                                   cosine_of(middle + sigma));
+  const Lanes contrast = levels_contrast(
+      p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm);
+  return axis.groups.weight[group] * above *
+         largest_contrast(p, contrast, group_range, lobe_range, per_nm);
+}
+
+/* What bounds the mirror order: all others, for light from the pair's middle direction. */
+struct MirrorBound {
+  BoundAxis axes[2];
+  float cosine, sigma_0;
+  /* U^2 of the orders with m and n, few and taken at the most that they can be. */
+  float diagonal;
+};
+
+ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p, const Pair &pair)
+{
+  const bool cross = p.along.spacing_nm > 0.0f;
+  return {{{order_groups(p.across, cross ? 1.0f - p.along.duty : 1.0f),
+            p.across.spacing_nm,
+            pair.mid_nu,
+            pair.mid_tau},
+           {order_groups(p.along, 1.0f - p.across.duty),
+            p.along.spacing_nm,
+            pair.mid_tau,
+            pair.mid_nu}},
+          sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f)),
+          sqrtf(larger(physical_lobe_variance(p, p.across), physical_lobe_variance(p, p.along))),
+          cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
+                  0.0f};
+}
+
 /* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
  * most wavelengths need only the first few for the bound to be out of reach. */
 ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
-                                      const Pair &pair,
                                       const MirrorBound &bound,
                                       const Lanes eta,
                                       const Lanes film_ior,
                                       const Complex<Lanes> metal,
                                       const Lanes per_nm)
 {
-  const float cosine = sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f));
-  const float sigma_0 = sqrtf(
-      larger(physical_lobe_variance(p, p.across), physical_lobe_variance(p, p.along)));
-  Lanes others = lanes(4.0f * bound.diagonal);
-  /* Groups of each axis that may be above the horizon. */
-  int used[2] = {bound.across.count, bound.along.count};
-  /* Twice U^2 of the groups that are not in the sum yet. */
-  float rest = bound.across.total + bound.along.total;
-
-  for (int group = 0; group < group_limit; group++) {
-    for (int axis = 0; axis < 2; axis++) {
-      const OrderGroups &groups = axis == 0 ? bound.across : bound.along;
-      if (group >= used[axis]) {
-        continue;
+  const float shortest_nm = 1.0f / lanes_largest(per_nm);
+  /* Where lobes end, the widest of which is of the order as far away as can be. */
+  const float horizon = 1.0f + 2.0f * (bound.sigma_0 + 2.0f * p.variation);
+  /* U^2 of what may be above the horizon and is not in the sum yet, and two bits for each group
+   * that it has. */
+  float rest = 0.0f;
+  unsigned int left[2] = {0, 0};
+  for (int i = 0; i < 2; i++) {
+    const BoundAxis &axis = bound.axes[i];
+    if (axis.groups.count == 0) {
+      continue;
+    }
+    const float reach = sqrtf(square(horizon) - square(axis.mid_other));
+    const float per_order = axis.spacing_nm / shortest_nm;
+    const float last_negative = (reach + axis.mid) * per_order;
+    const float last_positive = (reach - axis.mid) * per_order;
+    for (int group = 0; group < axis.groups.count; group++) {
+      const float first = axis.groups.order[group] - axis.groups.reach[group];
+      const float weight = axis.groups.weight[group];
+      if (first < last_negative) {
+        left[i] |= 1u << 2 * group;
+        rest += weight;
       }
-      const float spacing_nm = axis == 0 ? p.across.spacing_nm : p.along.spacing_nm;
-      const float mid = axis == 0 ? pair.mid_nu : pair.mid_tau;
-      const float mid_other = axis == 0 ? pair.mid_tau : pair.mid_nu;
-      const Lanes per_order = 1.0f / (spacing_nm * per_nm);
-      rest -= 2.0f * groups.weight[group];
-      bool above_horizon = false;
-      for (int side = -1; side <= 1; side += 2) {
-        /* How far from the normal an order is, and its cosine, 0 below the horizon. */
-        const auto sine_of = [&](const float order) {
-          const Lanes sine = mid + float(side) * order * per_order;
-          return lanes_sqrt(square(mid_other) + sine * sine);
-        };
-        const auto cosine_of = [](const Lanes sine) {
-          return lanes_sqrt(lanes_max(1.0f - sine * sine, lanes(0.0f)));
-        };
-        const float order = groups.order[group], reach = groups.reach[group];
-        const Lanes middle = sine_of(order);
-        const Lanes first = reach > 0.0f ? sine_of(order - reach) : middle;
-        const Lanes last = reach > 0.0f ? sine_of(order + reach) : middle;
-        const Lanes sigma = sigma_0 + p.variation * order * per_order;
-        /* The part of a lobe that may be above the horizon, at least. */
-        const Lanes above = lanes_min(
-            lanes_max(1.0f + 0.5f * (1.0f - lanes_min(first, last)) / sigma, lanes(0.0f)),
-            lanes(1.0f));
-        if (lanes_largest(above) > 0.0f) {
-          above_horizon = true;
-          const Lanes cos_middle = cosine_of(middle);
-          const Lanes cos_first = cosine_of(first), cos_last = cosine_of(last);
-          const Lanes group_range = lanes_max(lanes_max(cos_first, cos_last) - cos_middle,
-                                              cos_middle - lanes_min(cos_first, cos_last));
-          const Lanes lobe_range = 0.5f * (cosine_of(lanes_max(middle - sigma, lanes(0.0f))) -
-                                           cosine_of(middle + sigma));
-          const Lanes contrast =
-              levels(p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm).contrast;
-          others += groups.weight[group] * above *
-                    largest_contrast(p, contrast, group_range, lobe_range, per_nm);
-        }
-      }
-      if (!above_horizon) {
-        /* Nor are those beyond. */
-        for (int beyond = group + 1; beyond < groups.count; beyond++) {
-          rest -= 2.0f * groups.weight[beyond];
-        }
-        rest -= groups.rest;
-        used[axis] = 0;
+      if (first < last_positive) {
+        left[i] |= 2u << 2 * group;
+        rest += weight;
       }
     }
-    if (lanes_largest(eta + others) + 4.0f * rest <= 1.0f) {
-      return eta;
+    rest += axis.groups.rest;
+  }
+  Lanes others = lanes(4.0f * bound.diagonal);
+  for (int k = 0; (left[0] | left[1]) >> k != 0u; k++) {
+    for (int axis = 0; axis < 2; axis++) {
+      if ((left[axis] >> k & 1u) == 0u) {
+        continue;
+      }
+      if (lanes_largest(eta + others) + 4.0f * rest <= 1.0f) {
+        return eta;
+      }
+      rest -= bound.axes[axis].groups.weight[k / 2];
+      others += largest_power(p,
+                              bound.axes[axis],
+                              k / 2,
+                              k % 2 == 0 ? -1.0f : 1.0f,
+                              bound.cosine,
+                              bound.sigma_0,
+                              film_ior,
+                              metal,
+                              per_nm);
     }
   }
   return lanes_max(lanes_min(eta, 1.0f - 4.0f * rest - others), lanes(0.0f));
@@ -385,7 +437,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
 enum class Orders {
   /* Out of reach. */
   None,
-  /* One order for each node, where the lobes leave gaps in the spectrum. */
+  /* One order for each node, where the lobes leave gaps in between. */
   Single,
   /* All orders at each node. */
   All,
@@ -404,11 +456,12 @@ struct Integrator {
   float q_first, q_second;
   Orders orders;
   bool mirror = false, dense_fringes = false;
-  MirrorBound bound = {};
+  /* Only for the mirror order. */
+  MirrorBound bound;
 
   /* Whether all nodes are whole nanometres, where the tables need no interpolation. */
   bool whole = false;
-  float wavelength_nm[lane_count] = {}, step_nm[lane_count] = {}, order[lane_count] = {};
+  float wavelength_nm[lane_count], step_nm[lane_count], order[lane_count];
   int count = 0;
   Lanes red = lanes(0.0f), green = lanes(0.0f), blue = lanes(0.0f);
   Lanes weight_red = lanes(0.0f), weight_green = lanes(0.0f), weight_blue = lanes(0.0f);
@@ -465,6 +518,38 @@ struct Integrator {
     weight_red += s_red;
     weight_green += s_green;
     weight_blue += s_blue;
+  }
+
+  /* Adds up the nodes of a rule (tables.h). */
+  ICW_DEVICE_LARGE_METHOD void add_rule(const int rule)
+  {
+    for (int node = 0; node < rule_nodes(rule); node += lane_count) {
+      const auto row = [&](const int number) {
+        float values[lane_count];
+        for (int lane = 0; lane < lane_count; lane++) {
+          values[lane] = tables.rule_value(p.illuminant, rule, number, node + lane);
+        }
+        return load_lanes(values);
+      };
+      const Lanes wavelength = row(0);
+      Complex<Lanes> metal;
+      if (p.metal == metal_custom) {
+        float n[lane_count], k[lane_count];
+        for (int lane = 0; lane < lane_count; lane++) {
+          const ComplexIndex index = custom_index(p, get_lane(wavelength, lane));
+          n[lane] = index.n;
+          k[lane] = index.k;
+        }
+        metal = {load_lanes(n), load_lanes(k)};
+      }
+      else {
+        metal = {row(4 + 2 * int(p.metal)), row(5 + 2 * int(p.metal))};
+      }
+      const Lanes f = reflected(wavelength, lanes(0.0f), metal);
+      red += row(1) * f;
+      green += row(2) * f;
+      blue += row(3) * f;
+    }
   }
 
   /* Entries number cell + offset of the visible range. */
@@ -538,7 +623,7 @@ struct Integrator {
       Lanes eta = ridge_part * r.ridge + groove_part * r.groove -
                   ridge_part * groove_part * r.contrast;
       if (lanes_largest(eta) > 1.0f - 4.0f * ridge_part * groove_part) {
-        eta = bounded_mirror(p, pair, bound, eta, film_ior, metal, per_nm);
+        eta = bounded_mirror(p, bound, eta, film_ior, metal, per_nm);
       }
       f += lanes_gaussian(lanes(q_first), sigma_first) *
            (eta * zero_second + square(open_first) * r.contrast * others_second);
@@ -628,7 +713,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   const float spacing_nm = nodes.first.spacing_nm;
   nodes.mirror = near_u && near_v;
   if (nodes.mirror) {
-    nodes.bound = mirror_bound(p);
+    nodes.bound = mirror_bound(p, pair);
   }
 
   /* Orders whose lobes reach into the visible range. */
@@ -682,12 +767,18 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
         const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
         const float exact_step = step_nm(gaussian_bandwidth / sigma);
         const float step = nodes.whole ? floorf(exact_step) : exact_step;
-        const float half = step * floorf(lobe_reach * sigma / step);
-        float node = nodes.whole ? floorf(centre_nm - half + 0.5f) : centre_nm - half;
+        const bool bright = sigma < bright_sigma_nm && centre_nm > bright_first_nm &&
+                            centre_nm < bright_last_nm;
+        const float reach_nm = (bright ? bright_reach : lobe_reach) * sigma;
+        const float count = ceilf(2.0f * reach_nm / step);
+        float node = centre_nm - 0.5f * step * (count - 1.0f);
+        if (nodes.whole) {
+          node = floorf(node + 0.5f);
+        }
+        const float end = smaller(node + step * (count - 0.5f), last_nm);
         if (node < first_nm) {
           node += step * ceilf((first_nm - node) / step);
         }
-        const float end = smaller(centre_nm + half + 0.5f * step, last_nm);
         for (; node < end; node += step) {
           nodes.add(node, step, float(m));
         }
@@ -709,6 +800,9 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   }
   else if (blurred_orders < 0.7f) {
     lobe_per_nm = gaussian_bandwidth / sigma_nm(first_nm);
+    if (2.0f * lobe_reach * blurred_orders * last_nm < first_nm) {
+      nodes.orders = Orders::Single;
+    }
   }
   else if (blurred_orders * nodes.first.duty < 0.45f) {
     lobe_per_nm = smaller(slit_per_nm, 0.4f);
@@ -718,12 +812,22 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
     nodes.orders = Orders::None;
     lobe_per_nm = 0.0f;
   }
+  if (lobe_per_nm == 0.0f) {
+    const float film_path_nm = film_per_nm * square(blue_nm) / two_pi;
+    for (int rule = 0; rule < rule_count; rule++) {
+      if (film_path_nm < rule_path_nm(rule)) {
+        nodes.add_rule(rule);
+        return nodes.sum();
+      }
+    }
+  }
   const float exact_step = step_nm(lobe_per_nm);
   nodes.whole = exact_step > whole_step_nm;
   const float step = nodes.whole ? floorf(exact_step) : exact_step;
   const float begin = grid_first_nm + (nodes.whole ? floorf(0.5f * step) : 0.5f * step);
+  const float order_nm = q * spacing_nm;
   for (float node = begin; node < grid_last_nm; node += step) {
-    nodes.add(node, step, 0.0f);
+    nodes.add(node, step, larger(floorf(order_nm / node + 0.5f), 1.0f));
   }
   nodes.flush();
   return nodes.mean();

@@ -193,6 +193,45 @@ class Dies(unittest.TestCase):
         pairs = (low[:, None] < high - 1e-9).all(axis=2)
         self.assertFalse((pairs & pairs.T & ~np.eye(len(low), dtype=bool)).any())
 
+    def test_fields_may_be_moved_and_left_bare(self) -> None:
+        wafer = Wafer(field_columns=3, field_rows=5)
+        one = layout(4.0, 4.8, wafer)
+        plain = place_dies(one)
+        moved = place_dies(
+            replace(one, wafer=replace(wafer, field_shift_columns=1, field_shift_rows=2))
+        )
+        np.testing.assert_array_equal(moved.centre_mm, plain.centre_mm)
+        pitch = np.array([4.08, 4.88])
+        for places, shift in ((plain, (0, 0)), (moved, (1, 2))):
+            middle = places.centre_mm[(places.field == 0).all(axis=1)].mean(axis=0)
+            offset = np.abs(places.centre_mm / pitch % 1).min(axis=0).round(3)
+            np.testing.assert_allclose(middle, (offset - shift) * pitch, atol=1e-9)
+        bare = place_dies(replace(one, wafer=replace(wafer, blank_fields=((0, 0), (2, -1)))))
+        self.assertEqual(len(plain) - len(bare), 2 * 15)
+        self.assertFalse((bare.field == (2, -1)).all(axis=1).any())
+
+    def test_a_die_or_a_lane_at_the_centre(self) -> None:
+        for name, expected in (("die", 0.0), ("lane", 0.5)):
+            wafer = Wafer(centre_x=name, centre_y="die")
+            centre = place_dies(layout(5.0, 4.0, wafer)).centre_mm / (5.08, 4.08)
+            columns = centre[:, 0] - expected
+            np.testing.assert_allclose(columns, np.rint(columns), atol=1e-9)
+            np.testing.assert_allclose(centre[:, 1], np.rint(centre[:, 1]), atol=1e-9)
+
+    def test_the_rim_cuts_test_fields_where_it_cuts_dies(self) -> None:
+        test = DieSpec(GROUPS, name="test", width_mm=6.0, height_mm=6.0)
+        wafer = Wafer(test_fields=((5, 2),))
+        with self.assertRaisesRegex(IcwaferError, "not wholly on the wafer"):
+            check_layout(layout(5.0, 4.0, wafer, test))
+        one = layout(5.0, 4.0, replace(wafer, partial_dies=True), test)
+        check_layout(one)
+        places = place_dies(one)
+        tests = places.die == 1
+        self.assertTrue(places.partial[tests].any())
+        corners = np.hypot(*corners_mm(places, one.dies)[tests].T)
+        cut = corners.max(axis=0) > wafer.usable_radius_mm
+        np.testing.assert_array_equal(places.partial[tests], cut)
+
     def test_bad_wafers_are_refused(self) -> None:
         test = DieSpec(GROUPS, name="test", width_mm=6.0, height_mm=6.0)
         for wafer, words in (

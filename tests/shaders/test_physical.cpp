@@ -308,6 +308,19 @@ struct LineTables {
   {
     return metals.metal(metal, cell);
   }
+
+  /* All nodes at the line. */
+  float rule_value(Illuminant, const int rule, const int row, int) const
+  {
+    if (row == 0) {
+      return float(nm);
+    }
+    if (row < 4) {
+      return 1.0f / float(rule_nodes(rule));
+    }
+    const ComplexIndex index = metal(Metal((row - 4) / 2), nm - visible_first_nm);
+    return row % 2 == 0 ? index.n : index.k;
+  }
 };
 
 /* Order m of a line lies where the conical law says, to 1e-6 in the direction cosines, for light

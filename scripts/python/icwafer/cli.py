@@ -21,6 +21,7 @@ from icwafer import build, doctor, layout_command, packages, paths, render, sour
 from icwafer.compare import command as compare_command
 from icwafer.compare import merge as merge_command
 from icwafer.errors import IcwaferError
+from icwafer.portrait import command as portrait_command
 from icwafer.report import animate as animate_command
 from icwafer.report import command as report_command
 from icwafer.study import command as study_command
@@ -125,6 +126,7 @@ def _parser() -> _Parser:
     add("blender", "start the built Blender; arguments go to it")
     add("doctor", "check dependencies, source edits and build").set_defaults(run=_doctor)
     layout_command.register(add)
+    portrait_command.register(add)
     pictures = add("pictures", "render the README's pictures to out/pictures")
     pictures.add_argument(
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"

@@ -53,6 +53,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
     "full": (
         "libjack-dev",
         "libopenal-dev",
+        "libpulse-dev",
         "libsdl2-dev",
         "libsndfile1-dev",
         "libspnav-dev",

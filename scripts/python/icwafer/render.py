@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import shutil
 from pathlib import Path
 
@@ -20,6 +21,19 @@ def expect_blender() -> None:
     """Raises `IcwaferError` unless Blender is built."""
     if not paths.BLENDER.is_file():
         raise IcwaferError("Blender is not built yet; run scripts/icwafer build blender")
+
+
+def blender() -> Path:
+    """The program to render with: the one that ICWAFER_BLENDER names, or the built one.
+
+    Raises `IcwaferError` where there is none.
+    """
+    named = os.environ.get("ICWAFER_BLENDER")
+    if named and not Path(named).is_file():
+        raise IcwaferError(f"{named}: no such file; ICWAFER_BLENDER must name a Blender")
+    if not named:
+        expect_blender()
+    return Path(named or paths.BLENDER).resolve()
 
 
 def render(name: str, base: Path) -> tuple[Path, Path]:

@@ -3,7 +3,8 @@
 
 A scanner prints fields of several dies side by side. A product die stands where its farthest
 corner is within the usable radius (the wafer's less the edge exclusion), as far from flats and
-notch; the lattice is shifted by half a die where that makes more of them, unless the wafer says otherwise.
+notch; the lattice is shifted by half a die where that makes more of them, unless the wafer says
+otherwise.
 """
 
 from __future__ import annotations

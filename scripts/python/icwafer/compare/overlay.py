@@ -52,8 +52,7 @@ def grating_overlay(
 ) -> list[Curve]:
     """Curves of all orders that the picture of `size` (width, height) contains.
 
-    light: the place of a small lamp. camera: upright, its longer side 36 mm of sensor, as in
-    Blender. direction_rad: from the x axis to the wires, counter-clockwise seen from outside.
+    light: the place of a small lamp. camera: its longer side is 36 mm of sensor, as in Blender. direction_rad: from the x axis to the wires, counter-clockwise seen from outside.
     The wafer may end before a curve does.
     """
     columns = np.append(np.arange(0, size[0], step_px), size[0]).astype(float)
@@ -89,6 +88,11 @@ def deflection(
         right = np.cross(forward, (0.0, 1.0, 0.0))
     right /= np.linalg.norm(right)
     up = np.cross(right, forward)
+    roll = math.radians(camera.roll_deg)
+    right, up = (
+        math.cos(roll) * right - math.sin(roll) * up,
+        math.sin(roll) * right + math.cos(roll) * up,
+    )
 
     scale = _SENSOR_MM / camera.lens_mm / max(size)
     ray = (

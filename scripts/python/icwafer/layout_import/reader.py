@@ -71,11 +71,35 @@ class Cutout:
     outline: Outline
 
 
+@dataclass(frozen=True)
+class Solids:
+    """One layer of a chip as trapezoids.
+
+    layer: index into the process's layers. corners_um: (n, 4, 2) float64, clockwise, from the
+    chip's lower left corner; of a triangle the last two are the same.
+    """
+
+    layer: int
+    corners_um: np.ndarray
+
+
+def read_solids(request: Request, most: int) -> Iterator[Chip | Solids]:
+    """Reads the shapes of a layout file: the chip first, then its layers, the highest first.
+
+    A chip of more than `most` trapezoids has no layers. Raises as `cut_out` does.
+    """
+    return _read(request, most)
+
+
 def cut_out(request: Request) -> Iterator[Chip | Cutout]:
     """Reads a layout file: the chip first, then its cutouts, tile by tile, highest layer first.
 
     Raises IcwaferError where the file cannot be read, or only beyond the limits.
     """
+    return _read(request, 0)
+
+
+def _read(request: Request, most_solids: int) -> Iterator[Chip | Cutout | Solids]:
     if not request.path.is_file():
         raise IcwaferError(f"{request.path}: no such file; name a GDSII, OASIS or DEF file")
     for lef in request.lef:
@@ -89,7 +113,7 @@ def cut_out(request: Request) -> Iterator[Chip | Cutout]:
     process = _start()
     try:
         with process.stdin as stdin:
-            stdin.write(json.dumps(_message(request)).encode())
+            stdin.write(json.dumps(_message(request, most_solids)).encode())
         yield from _messages(request, process.stdout)
     except (EOFError, BrokenPipeError):
         raise IcwaferError(f"{request.path}: {_death(process.wait(), request.limits)}") from None
@@ -115,7 +139,7 @@ def _start() -> subprocess.Popen:
     )
 
 
-def _message(request: Request) -> dict[str, Any]:
+def _message(request: Request, most_solids: int) -> dict[str, Any]:
     return {
         "path": str(request.path),
         "lef": [str(path) for path in request.lef],
@@ -127,12 +151,13 @@ def _message(request: Request) -> dict[str, Any]:
         ],
         "tile_um": request.tile_um,
         "window_um": request.window_um,
+        "most_solids": most_solids,
         "limit_bytes": round(request.limits.memory_gb * 2**30),
         "limit_seconds": request.limits.seconds,
     }
 
 
-def _messages(request: Request, answer: BinaryIO) -> Iterator[Chip | Cutout]:
+def _messages(request: Request, answer: BinaryIO) -> Iterator[Chip | Cutout | Solids]:
     while True:
         line = answer.readline()
         if not line.endswith(b"\n"):
@@ -147,19 +172,25 @@ def _messages(request: Request, answer: BinaryIO) -> Iterator[Chip | Cutout]:
             raise IcwaferError(f"{request.path}: {text}")
         if "top" in message:
             yield Chip(message["top"], tuple(message["size_um"]), tuple(message["tiles"]))
+        elif "solids" in message:
+            corners = _numbers(answer, 8 * message["solids"]).reshape(-1, 4, 2)
+            yield Solids(message["layer"], corners * message["dbu"])
         else:
             yield _cutout(message, answer)
 
 
 def _cutout(message: dict[str, Any], answer: BinaryIO) -> Cutout:
-    size = message["edges"] * 4 * 8
-    data = answer.read(size)
-    if len(data) < size:
-        raise EOFError
-    corners = np.frombuffer(data, dtype="<i8").reshape(-1, 4)
+    corners = _numbers(answer, 4 * message["edges"]).reshape(-1, 4)
     edges_um = (corners - np.array(message["centre"] * 2)) * message["dbu"]
     outline = Outline(edges_um, tuple(message["size_um"]))
     return Cutout(tuple(message["tile"]), message["layer"], message["visible"], outline)
+
+
+def _numbers(answer: BinaryIO, count: int) -> np.ndarray:
+    data = answer.read(8 * count)
+    if len(data) < 8 * count:
+        raise EOFError
+    return np.frombuffer(data, dtype="<i8")
 
 
 def _too_much_memory(limits: Limits) -> str:

@@ -4,7 +4,8 @@
 A damaged or malicious file costs this process, whose memory and computing time are limited, and
 nothing else. It gets a request as JSON on stdin and answers on stdout with messages: a line of
 JSON each, and after that of a cutout its edges, `edges` x 4 int64, little-endian, in database
-units. `icwafer.layout_import.reader` is the other end.
+units; a request for solids is answered with `solids` x 8 int64 for each layer, the four corners of
+trapezoids. `icwafer.layout_import.reader` is the other end.
 
 KLayout must be importable here, and nowhere else.
 """
@@ -103,6 +104,11 @@ def _answer(request: dict[str, Any], answer: BinaryIO) -> None:
             f"{layout.dbu:g} um, and a chip {SMALLEST_UM:g} to {LARGEST_UM:g} um: correct the "
             "units in the file"
         )
+    if request["most_solids"]:
+        _send(answer, top=top.name, size_um=size_um, tiles=[1, 1])
+        _send_solids(db, answer, top, layers, layout.dbu, request["most_solids"])
+        _send(answer, end=True)
+        return
     usual_um = max(USUAL_TILE_UM, (size_um[0] * size_um[1] / USUAL_TILES) ** 0.5)
     tile_um = request["tile_um"] or usual_um
     window = (request["window_um"] or USUAL_WINDOW_UM) / layout.dbu
@@ -233,6 +239,37 @@ def _send_tile(
             dbu=dbu,
         )
         answer.write(corners.astype("<i8").tobytes())
+
+
+def _send_solids(
+    db: Any, answer: BinaryIO, top: Any, layers: list[list[int]], dbu: float, most: int
+) -> None:
+    """The merged shapes of each layer as trapezoids, or nothing if they are more than `most`.
+
+    layers: from the top down. Corners are counted from the chip's lower left one.
+    """
+    if sum(top.shapes(index).size() for indices in layers for index in indices) > most:
+        return
+    parts = []
+    for indices in layers:
+        shapes = db.Region()
+        for index in indices:
+            shapes += db.Region(top.begin_shapes_rec(index))
+            if shapes.count() > most:
+                return
+        parts.append(shapes.decompose_trapezoids_to_region())
+        if sum(part.count() for part in parts) > most:
+            return
+    chip = top.bbox()
+    for number, part in enumerate(parts):
+        corners = [
+            [(point.x - chip.left, point.y - chip.bottom) for point in polygon.each_point_hull()]
+            for polygon in part.each()
+        ]
+        # A triangle has its last corner twice.
+        table = np.array([four + four[-1:] * (4 - len(four)) for four in corners], dtype="<i8")
+        _send(answer, layer=number, solids=len(corners), dbu=dbu)
+        answer.write(table.tobytes())
 
 
 if __name__ == "__main__":

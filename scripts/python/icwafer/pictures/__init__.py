@@ -16,6 +16,7 @@ from icwafer.pictures.model import (
     View,
 )
 from icwafer.pictures.photograph import PHOTOGRAPH
+from icwafer.pictures.studio import STUDIO
 
 __all__ = [
     "PICTURES",
@@ -30,4 +31,4 @@ __all__ = [
     "View",
 ]
 
-PICTURES: dict[str, Picture] = {**EFFECTS, "photograph": PHOTOGRAPH}
+PICTURES: dict[str, Picture] = {**EFFECTS, "photograph": PHOTOGRAPH, **STUDIO}

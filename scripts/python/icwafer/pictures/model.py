@@ -125,6 +125,12 @@ class Render:
     size: tuple[int, int] = ruled("width and height in pixels", 1, 16384, default=(960, 540))
     samples: int = ruled("paths per pixel", 1, 1_000_000, default=48)
     seed: int = ruled("of the renderer's random numbers", 0, 2**31 - 1, default=0)
+    noise: float = ruled(
+        "a pixel with less noise than this takes no more samples; 0: all take as many",
+        0,
+        1,
+        default=0.0,
+    )
     bounces: int = ruled("reflections of light from one thing to another", 0, 1024, default=0)
 
 

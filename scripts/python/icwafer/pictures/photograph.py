@@ -26,13 +26,15 @@ PHOTOGRAPH = Picture(
             turn_deg=76.4,
         ),
         # Low at the left: only the rounded rim sends its light on to the camera.
-        Light("CARD", (-420.0, 60.0, 110.0), 4e5, size_mm=(500.0, 120.0)),
+        Light("CARD", (-420.0, 60.0, 110.0), 5e5, size_mm=(500.0, 120.0)),
+        # What the bare silicon of the near rim mirrors: a dim window.
+        Light("CARD", (-190.0, 390.0, 380.0), 2e3, (0.1, 0.25, 1.0), size_mm=(300.0, 160.0), fade=0.6),
     ),
     Camera(
-        position_mm=(4.0, -319.8, 204.8),
-        target_mm=(-37.5, -23.4, 8.3),
+        position_mm=(4.01, -319.82, 204.83),
+        target_mm=(-37.65, -23.53, 8.25),
         lens_mm=93.16,
-        roll_deg=2.1,
+        roll_deg=2.136,
         f_stop=45.0,
     ),
     {
@@ -43,6 +45,6 @@ PHOTOGRAPH = Picture(
         "Roughness": 0.061,
     },
     wafer="bar-memory",
-    view=View("Standard", "None", exposure=0.1, gamma=0.81),
-    render=Render((1024, 682), 64, bounces=1),
+    view=View("Standard", "None", exposure=-0.3, gamma=0.81),
+    render=Render((1024, 682), 160, noise=0.01, bounces=1),
 )

@@ -9,7 +9,7 @@
 
 Everything but the name of the study may be missing; without `jobs` all folders count. `grating` is
 one object or a list of them and asks for the orders to be drawn over the picture: `camera`
-(position_mm, target_mm, lens_mm), `light` (position_mm), `plane` (point, normal, x_axis),
+(position_mm, target_mm, lens_mm, roll_deg), `light` (position_mm), `plane` (point, normal, x_axis),
 `spacing_nm`, `direction_rad`.
 """
 
@@ -170,6 +170,7 @@ def _grating(given: dict[str, Any]) -> Grating:
             _vector(camera["position_mm"]),
             _vector(camera["target_mm"]),
             float(camera.get("lens_mm", 50.0)),
+            float(camera.get("roll_deg", 0.0)),
         ),
         light=_vector(given["light"]["position_mm"]),
         plane=Plane(**{key: _vector(value) for key, value in given.get("plane", {}).items()}),

@@ -42,7 +42,7 @@ def _lamp(light: Light) -> bpy.types.Object:
 
 
 def _card(light: Light) -> bpy.types.Object:
-    """A plane with the radiance of an area lamp that emits the same power to one side."""
+    """A plane with the radiance of an area lamp of the same power."""
     half = np.array(light.size_mm) / 2
     corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * half
     mesh = polygon_mesh("Card", np.insert(corners, 2, 0.0, axis=1), [np.arange(4)[None]])
@@ -56,7 +56,7 @@ def _card(light: Light) -> bpy.types.Object:
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     tree.links.new(emission.outputs[0], output.inputs["Surface"])
     emission.inputs["Color"].default_value = (*light.colour, 1.0)
-    radiance = light.power_w / (math.pi * 4 * half.prod())
+    radiance = light.power_w / (4 * 4 * half.prod())  # as Blender has it, a quarter over the area
     emission.inputs["Strength"].default_value = radiance
     if light.fade:
         place = tree.nodes.new("ShaderNodeTexCoord")

@@ -58,11 +58,17 @@ def wafer_material(values: Mapping[str, NodeValue]) -> bpy.types.Material:
     return material
 
 
-def chip_material(name: str, values: Mapping[str, NodeValue] | None = None) -> bpy.types.Material:
+def chip_material(
+    name: str,
+    values: Mapping[str, NodeValue] | None = None,
+    rest_colour: tuple[float, float, float] = IRREGULAR_COLOUR,
+    rest_roughness: float = IRREGULAR_ROUGHNESS,
+) -> bpy.types.Material:
     """A material for chips of the model PHYSICAL, driven by the attributes of mesh and instance.
 
     The share of a block that diffracts is its `ic_diffraction`; the rest is metal without a regular
-    pattern, which scatters light softly. Film, grooves and wires follow the drift of a wafer.
+    pattern, which reflects softly as a metal of the other arguments. Film, grooves and wires follow
+    the drift of a wafer.
     values: of the node's inputs and properties; an input that is named here takes no attribute.
     """
     material = bpy.data.materials.new(name)
@@ -71,8 +77,8 @@ def chip_material(name: str, values: Mapping[str, NodeValue] | None = None) -> b
     tree.nodes.clear()
     wafer = tree.nodes.new(NODE)
     rest = tree.nodes.new("ShaderNodeBsdfGlossy")
-    rest.inputs["Color"].default_value = (*IRREGULAR_COLOUR, 1.0)
-    rest.inputs["Roughness"].default_value = IRREGULAR_ROUGHNESS
+    rest.inputs["Color"].default_value = (*rest_colour, 1.0)
+    rest.inputs["Roughness"].default_value = rest_roughness
     mix = tree.nodes.new("ShaderNodeMixShader")
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     for node, place in ((rest, (0, 150)), (wafer, (0, 0)), (mix, (300, 0)), (output, (500, 0))):

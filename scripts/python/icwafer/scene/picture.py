@@ -31,6 +31,8 @@ def build(picture: Picture) -> bpy.types.Scene:
         ready = PRESETS[picture.wafer]
         layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
         add_wafer(layout, scene.collection, parts(picture.node))
+    elif picture.table.size_mm:
+        scene.collection.objects.link(_die_on_table(picture))
     else:
         die = bpy.data.objects.new("Die", die_mesh(generate(picture.die)))
         die.data.materials.append(wafer_material(picture.node))
@@ -45,6 +47,15 @@ def build(picture: Picture) -> bpy.types.Scene:
     set_render(scene, picture.render)
     set_view(scene, picture.view)
     return scene
+
+
+def _die_on_table(picture: Picture) -> bpy.types.Object:
+    """A die with the ground between its blocks."""
+    materials = parts(picture.node)
+    die = bpy.data.objects.new("Die", die_mesh(generate(picture.die), ground=True))
+    for material in (materials.blocks, materials.ground):
+        die.data.materials.append(material)
+    return die
 
 
 def check(picture: Picture) -> None:

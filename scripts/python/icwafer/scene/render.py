@@ -18,12 +18,13 @@ VIEW_ATTRIBUTES = {
 
 
 def set_render(scene: bpy.types.Scene, render: Render) -> None:
-    """Cycles on the CPU, as many samples in every pixel, no denoising."""
+    """Cycles on the CPU, no denoising."""
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
     scene.cycles.samples = render.samples
     scene.cycles.seed = render.seed
-    scene.cycles.use_adaptive_sampling = False
+    scene.cycles.use_adaptive_sampling = render.noise > 0.0
+    scene.cycles.adaptive_threshold = render.noise
     scene.cycles.use_denoising = False
     scene.cycles.max_bounces = render.bounces
     scene.render.resolution_x, scene.render.resolution_y = render.size

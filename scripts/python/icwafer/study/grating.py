@@ -24,6 +24,7 @@ def gratings(picture: Picture) -> list[dict[str, Any]]:
                 "position_mm": list(camera.position_mm),
                 "target_mm": list(camera.target_mm),
                 "lens_mm": camera.lens_mm,
+                "roll_deg": camera.roll_deg,
             },
             "light": {"position_mm": list(light.position_mm)},
             "plane": {"point": [0, 0, 0], "normal": [0, 0, 1], "x_axis": [1, 0, 0]},
@@ -31,6 +32,7 @@ def gratings(picture: Picture) -> list[dict[str, Any]]:
             "direction_rad": wires[1],
         }
         for light in picture.lights
+        if light.kind != "CARD"
     ]
 
 

@@ -3,10 +3,10 @@
 
 Measured in the photograph "Si wafer" by Enrique Jimenez (CC BY-SA 2.0): the pitch of the dies
 relative to the wafer, the shares of bars and dark strips, the reticle fields of 3 x 5 dies, which of
-them hold test dies, which were not exposed, and where the rim cuts the pattern. The wires' period
-follows from the colours there: u d runs from 980 to 1590 nm over the wafer (orders 2 and 3), which
-is that of about 1300 nm under a lamp at a usual place. Width, depth and film are chosen so that a
-render has the strengths of the photograph's colours.
+them hold test dies, which were not exposed, and where the rim cuts the pattern. Of the wires the
+photograph shows u d only, 980 to 1590 nm over the wafer (orders 2 and 3), where u depends on the
+lamp. Period, width, depth and film are those that, with the lamp of the picture `photograph`, come
+nearest to the colours of its dies; the size is one that fits such a wafer.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def _wires(
 
 #: Wires that are next to nothing, a mirror under oxide; and metal of many periods, pale.
 _BARE = _wires("bare", Kind.STRIP, 1000.0, 0.001)
-_LANE_METAL = _wires("lane", Kind.SEAL, 2100.0, 0.3, variation=0.3)
+_LANE_METAL = _wires("lane", Kind.SEAL, 2900.0, 0.42, variation=0.05)
 _STRIP = Macro(Kind.STRIP)
 _LANE = Macro(Kind.SEAL)
 
@@ -52,9 +52,9 @@ _BAR = Tiles(
     Cut(
         1,
         (
-            Part(Macro(Kind.MEMORY), 0.84),
-            Part(_STRIP, 0.06),
-            Part(Macro(Kind.BUS), 0.10),
+            Part(Macro(Kind.MEMORY), 0.85),
+            Part(_STRIP, 0.05),
+            Part(Macro(Kind.BUS), (0.09, 0.11)),
         ),
     ),
     columns=1,
@@ -79,7 +79,7 @@ def _with_lanes(inside: Node, um: float) -> Cut:
     return Cut(1, (Part(_LANE, um=um), Part(inside), Part(_LANE, um=um)))
 
 
-TREE = _with_lanes(_BARS, 60.0)
+TREE = _with_lanes(_BARS, 80.0)
 
 PRODUCT = DieSpec(
     name="bar-memory",
