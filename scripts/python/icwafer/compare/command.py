@@ -248,7 +248,8 @@ def _photo(arguments: argparse.Namespace) -> int:
         title = f"{arguments.photo.name} and {arguments.images[0].name}"
         names = ("photo", "render")
         with photo.as_files(found) as files:
-            _write_page(arguments, files, names, title, photo_figure.svg(found.hues, names))
+            figure = photo_figure.section(found, names)
+            _write_page(arguments, files, names, title, figure, photo_figure.INTRODUCTION)
     return 1 if failures else 0
 
 
@@ -265,12 +266,13 @@ def _write_page(
     names: tuple[str, str],
     title: str,
     figure: str = "",
+    description: str = "",
 ) -> None:
     from icwafer.report import page
     from icwafer.report.study import Job, Study
 
     jobs = tuple(Job(name, {}, image=path) for name, path in zip(names, files))
-    study = Study(title, "", (), names[0], "", {}, jobs)
+    study = Study(title, description, (), names[0], "", {}, jobs)
     for path in page.write(
         study,
         arguments.html,
