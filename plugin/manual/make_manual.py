@@ -58,10 +58,18 @@ def float_inputs() -> list[FloatInput]:
         if match is None:
             raise SystemExit(f"{TABLE}: cannot read this row of the table: {row.strip()[:60]}")
         identifier, name, initial, minimum, maximum, kind, model, tooltip = match.groups()
-        inputs.append(FloatInput(
-            identifier, name, float(initial), float(minimum), float(maximum), kind, model,
-            "".join(re.findall(r'"([^"]*)"', tooltip)),
-        ))
+        inputs.append(
+            FloatInput(
+                identifier,
+                name,
+                float(initial),
+                float(minimum),
+                float(maximum),
+                kind,
+                model,
+                "".join(re.findall(r'"([^"]*)"', tooltip)),
+            )
+        )
     return inputs
 
 
@@ -76,7 +84,9 @@ def _entry(name: str, initial: str, meaning: str, limits: str = "") -> str:
 
 
 def _pictures(sweep: Sweep) -> str:
-    note = f"<p class=note>In these pictures: {html.escape(sweep.note)}.</p>\n" if sweep.note else ""
+    note = (
+        f"<p class=note>In these pictures: {html.escape(sweep.note)}.</p>\n" if sweep.note else ""
+    )
     figures = "".join(
         f'<figure><img src="{sweep.file(panel).relative_to(HERE)}" width=200 height=200 loading=lazy '
         f'alt="{html.escape(f"{sweep.name}: {panel.label}")}">'

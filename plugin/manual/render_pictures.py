@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Renders the pictures of the manual page, inside a Blender with the node:
 
-scripts/icwafer blender -b --factory-startup --python-exit-code 1 -P plugin/manual/render_pictures.py
+scripts/icwafer blender -b --factory-startup -P plugin/manual/render_pictures.py
 
 After `--`, names of inputs: only their pictures. Each file notes what it shows, for the test that
 tells whether it is up to date.
@@ -69,7 +69,8 @@ def cap() -> bpy.types.Mesh:
     tilt = np.radians(HALF_ANGLE_DEG) * np.arange(1, rings + 1)[:, None] / rings
     turn = 2 * np.pi * np.arange(sectors) / sectors
     grid = np.stack(
-        [np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt) + 0 * turn], axis=-1
+        [np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt) + 0 * turn],
+        axis=-1,
     ).reshape(-1, 3)
     vertices = RADIUS * np.concatenate([[[0, 0, 1]], grid])
     vertices[:, 2] -= RADIUS * np.cos(np.radians(HALF_ANGLE_DEG))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The pictures of the manual page as data: which values of each input are shown, side by side.
 
-All show one watch glass, seen and lit from about the same place, so that its slope at a point says
-how far light is deflected there: the mirror image of the lamp is in the middle, colours lie at both
+All show one watch glass, seen and lit from about the same place, so that its slope at a point
+says how far light is deflected there: the mirror image of the lamp is in the middle, colours lie at both
 sides of it, across the wires. `render_pictures.py` renders them.
 """
 
@@ -22,7 +22,8 @@ Value = float | str | bool | tuple[float, float, float]
 @dataclass(frozen=True)
 class Panel:
     """One render. values: of inputs by their names and of the node's properties, beside the
-    sweep's own. bumps: strength of bumps that drive Normal. round: Tangent runs around the axis."""
+    sweep's own. bumps: strength of bumps that drive Normal. round: Tangent runs around the axis.
+    """
 
     label: str
     values: Mapping[str, Value]

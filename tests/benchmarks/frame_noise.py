@@ -6,8 +6,8 @@
 A plane under a sky and an area lamp; the same samples for all materials. The glossy lobe (GGX)
 has the widths of the node's mirror order across and along the wires. Noise is the standard
 deviation over renders with different seeds, as a root mean square over the lit pixels, divided by
-their mean: of the luminance, and of the three channels. Lit are the pixels above half of the frame's
-mean.
+their mean: of the luminance, and of the three channels. Lit are the pixels above half of the
+frame's mean.
 """
 
 from __future__ import annotations
@@ -95,6 +95,8 @@ with tempfile.TemporaryDirectory() as folder:
             found[name] = noise(scene, Path(folder))
         for name, values in found.items():
             (luminance, channels), (glossy_luminance, glossy_channels) = values, found["GGX"]
-            print(f"{light}, {name}: luminance {luminance:.3f}, "
-                  f"{luminance / glossy_luminance:.2f} times GGX; "
-                  f"channels {channels:.3f}, {channels / glossy_channels:.2f} times GGX")
+            print(
+                f"{light}, {name}: luminance {luminance:.3f}, "
+                f"{luminance / glossy_luminance:.2f} times GGX; "
+                f"channels {channels:.3f}, {channels / glossy_channels:.2f} times GGX"
+            )

@@ -65,8 +65,10 @@ def main() -> None:
             largest_mb=arguments.megabytes,
         )  # fmt: skip
         count = int(np.prod(arguments.shape))
-        print(f"{count} renders of {arguments.size[0]}x{arguments.size[1]}: "
-              f"page in {time.monotonic() - start:.0f} s, {output.stat().st_size / 1e6:.1f} MB")
+        print(
+            f"{count} renders of {arguments.size[0]}x{arguments.size[1]}: "
+            f"page in {time.monotonic() - start:.0f} s, {output.stat().st_size / 1e6:.1f} MB"
+        )
         start = time.monotonic()
         browser = Browser(output, 1280, 900)
         print(f"drawn {time.monotonic() - start:.1f} s after Chromium's start")

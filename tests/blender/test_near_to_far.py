@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Blocks that become smaller than a pixel: nothing jumps, and Spacing Variation stands for them."""
+"""Blocks smaller than a pixel: nothing jumps, and Spacing Variation stands for them."""
 
 from __future__ import annotations
 

@@ -171,13 +171,16 @@ class RenderTest(StudyCase):
         """Two views swap their names, so that each job's light lies in the other's folder."""
         case = '[[axis.case]]\nname = "{}"\nscene = {{ view.gamma = {}, render.seed = {} }}\n'
         head = HEAD + '[[axis]]\nname = "c"\n'
-        self.render(self.study(head + case.format("a", 1, 1) + case.format("b", 1, 2)), "out", *SMALL)
+        first = self.study(head + case.format("a", 1, 1) + case.format("b", 1, 2))
+        self.render(first, "out", *SMALL)
         swapped = self.study(head + case.format("a", 2, 2) + case.format("b", 2, 1))
         self.render(swapped, "out", *SMALL)
         self.render(swapped, "alone", *SMALL, "--isolate")
         for job in ("c-a", "c-b"):
             for name in ("image.exr", "image.png"):
-                taken, rendered = (self.folder / f"{f}/jobs/{job}/{name}" for f in ("out", "alone"))
+                taken, rendered = (
+                    self.folder / f"{folder}/jobs/{job}/{name}" for folder in ("out", "alone")
+                )
                 np.testing.assert_array_equal(read(taken), read(rendered))
             self.assertEqual(metadata(taken.with_suffix(".exr"))["icwafer:job"], job)
         facts = json.loads((self.folder / "out/jobs/c-a/job.json").read_text())

@@ -56,7 +56,9 @@ class AnimateTest(CompareCase):
 
     def test_how_smoothly_it_moves(self) -> None:
         out = self.animate("--beside", "side")
-        self.assertIn("mean luminance from frame to frame: 1.200 in the middle, 1.200 at most", out)
+        self.assertIn(
+            "mean luminance from frame to frame: 1.200 in the middle, 1.200 at most", out
+        )
         self.assertIn("0.000 in the last", out)
 
     def test_a_jump_is_named(self) -> None:

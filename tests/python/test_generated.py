@@ -65,7 +65,8 @@ class Generated(unittest.TestCase):
             for panel in sweep.panels:
                 file = sweep.file(panel)
                 with self.subTest(file.name):
-                    noted = oiio.ImageBuf(str(file)).spec().get_string_attribute("ImageDescription")
+                    spec = oiio.ImageBuf(str(file)).spec()
+                    noted = spec.get_string_attribute("ImageDescription")
                     self.assertEqual(noted, sweep.description(panel), "render it anew")
                     self.assertIn(f'src="pictures/{file.name}"', page)
                 files.add(file)

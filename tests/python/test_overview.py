@@ -24,7 +24,9 @@ class OverviewTest(CompareCase):
             write_study(folder, name)
 
     def report(self, *arguments: str) -> str:
-        status, out, err = self.icwafer("report", str(self.folder), "--all", "--no-hdr-flip", *arguments)
+        status, out, err = self.icwafer(
+            "report", str(self.folder), "--all", "--no-hdr-flip", *arguments
+        )
         self.assertEqual(status, 0, err)
         return out
 
@@ -58,6 +60,8 @@ class OverviewTest(CompareCase):
 
     def test_what_is_no_folder_of_studies(self) -> None:
         shutil.rmtree(self.folder / "second")
-        self.expect_error(["report", str(self.folder / "first"), "--all"], 1, "no rendered studies")
+        self.expect_error(
+            ["report", str(self.folder / "first"), "--all"], 1, "no rendered studies"
+        )
         self.expect_error(["report"], 1, "or give --all")
         self.expect_error(["report", str(self.folder), "--all", "-o", "x"], 1, "leave it out")

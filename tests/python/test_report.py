@@ -219,7 +219,8 @@ class Write(CompareCase):
         values = list(range(101))
         for value in values:
             add_job(folder, f"d{value}", {"settings": {"d": value}})
-            write_image(folder / "jobs" / f"d{value}" / "image.exr", np.full((2, 4, 3), value / 50))
+            grey = np.full((2, 4, 3), value / 50)
+            write_image(folder / "jobs" / f"d{value}" / "image.exr", grey)
         axes = [{"name": "d", "values": values}]
         (folder / "study.json").write_text(json.dumps({"name": "x", "axes": axes}))
         write(study.load(folder), self.folder / "p.html", ppd=67.0, hdr=False, processes=1)

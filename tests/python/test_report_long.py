@@ -34,7 +34,9 @@ class LongReport(unittest.TestCase):
         for row in range(ROWS):
             for column in range(COLUMNS):
                 id = f"r{row}c{column}"
-                add_job(place, id, {"settings": {"row": row, "column": column}, "grating": GRATING})
+                add_job(
+                    place, id, {"settings": {"row": row, "column": column}, "grating": GRATING}
+                )
                 pixels = random.random((36, 64, 3)) * [row / ROWS, column / COLUMNS, 0.2]
                 write_image(place / "jobs" / id / "image.exr", pixels)
         axes = [
@@ -64,7 +66,9 @@ class LongReport(unittest.TestCase):
     def test_the_table_grows_on_demand_and_sorts_all(self) -> None:
         rows = "#jobs tbody tr"
         self.assertEqual(len(self.browser.all(rows)), 200)
-        self.assertEqual(self.browser.one("#filter-count").text, f"{ROWS * COLUMNS} of {ROWS * COLUMNS}")
+        self.assertEqual(
+            self.browser.one("#filter-count").text, f"{ROWS * COLUMNS} of {ROWS * COLUMNS}"
+        )
         column = self.browser.all("#jobs thead button")[1]
         for _ in range(2):
             self.browser.js("arguments[0].click()", column)

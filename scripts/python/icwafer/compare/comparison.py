@@ -150,10 +150,14 @@ def _known(
         if not (linear and image.linear):
             raise InputError(f"{image.path}: variances are of scene-linear values; give EXRs")
         if image.size != render.size:
-            raise InputError(f"{image.path} has another size than {render.path}; render them alike")
+            raise InputError(
+                f"{image.path} has another size than {render.path}; render them alike"
+            )
         if image.pixels.min() < 0.0:
             raise InputError(f"{image.path}: has negative values, which no variance is")
-    first, second = (np.where((bad | image.bad)[..., None], 0.0, image.pixels) for image in variances)
+    first, second = (
+        np.where((bad | image.bad)[..., None], 0.0, image.pixels) for image in variances
+    )
     return first, second
 
 

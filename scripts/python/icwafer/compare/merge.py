@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The subcommand `icwafer merge`: renders of one scene become one, and the variance that it has."""
+"""The subcommand `icwafer merge`: renders of one scene become one, with its variance."""
 
 from __future__ import annotations
 

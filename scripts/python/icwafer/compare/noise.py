@@ -18,8 +18,8 @@ variables", Bernoulli 21(2), theorem 1.1). Two kinds of difference are looked fo
 - spread: x = |A - B| - |noise|, where the noise is what two renders of the *same* scene differ by.
   A tile changed inside, up here and down there. It needs two renders of each.
 
-Where the variance of each pixel is known, one render of each is enough for both kinds, and they may
-have unequal samples: then x = A - B is divided by the root of the summed variances V, whose sums
+Where the variance of each pixel is known, one render of each is enough for both kinds, and they
+may have unequal samples: then x = A - B is divided by the root of the summed variances V, whose sums
 over a tile of 64 pixels or more are close to normal, and the spread is x = (A - B)^2 - V, skewed
 upwards, which makes its self-normalised sum fall short of the bound.
 

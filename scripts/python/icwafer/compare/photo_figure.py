@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The colours of a photograph and of a render for the eye: pictures, words and SVG for the page."""
+"""A photograph and a render for the eye: pictures, words and charts for the page."""
 
 from __future__ import annotations
 

@@ -58,7 +58,9 @@ def _run(arguments: argparse.Namespace) -> int:
     from icwafer.report import study
 
     if arguments.output.suffix not in _FORMATS:
-        raise IcwaferError(f"{arguments.output}: name a file that ends with {' or '.join(_FORMATS)}")
+        raise IcwaferError(
+            f"{arguments.output}: name a file that ends with {' or '.join(_FORMATS)}"
+        )
     loaded = study.load(arguments.folder)
     over = _axis(loaded, arguments.over)
     beside = _axis(loaded, arguments.beside) if arguments.beside else None

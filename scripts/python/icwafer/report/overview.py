@@ -51,7 +51,9 @@ def studies_in(folder: Path) -> list[Path]:
     return found
 
 
-def write(folder: Path, *, config: Path | None, ppd: float, hdr: bool, largest_mb: float) -> list[Path]:
+def write(
+    folder: Path, *, config: Path | None, ppd: float, hdr: bool, largest_mb: float
+) -> list[Path]:
     """Writes the report of each study in a folder, index.html and studies.jpg; returns them.
 
     A study without a finished picture is left out. Raises IcwaferError where there is none at all.
@@ -79,7 +81,9 @@ def write(folder: Path, *, config: Path | None, ppd: float, hdr: bool, largest_m
 
 def _shown(job: Job, options: Options) -> np.ndarray:
     image = images.read(job.image)
-    return view_of(job, options, image.linear).encode(image.pixels) if image.linear else image.pixels
+    return (
+        view_of(job, options, image.linear).encode(image.pixels) if image.linear else image.pixels
+    )
 
 
 def _index(reported: Sequence[Reported], options: Options, folder: Path) -> str:
