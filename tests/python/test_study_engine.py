@@ -16,6 +16,8 @@ import stand_in_blender
 from study_support import HEAD, STAND_IN, StudyCase, axis, images, names
 from support import REPOSITORY, write
 
+from icwafer.study.order import Order
+
 SEEDS = axis("seed", "render.seed", [1, 2, 3])
 
 
@@ -53,6 +55,15 @@ class ResultsTest(StudyCase):
         )
         self.assertEqual(
             images(output), {k: v for k, v in before.items() if not k.startswith("jobs/seed-1")}
+        )
+
+    def test_commands_name_what_is_in_the_repository_from_there(self) -> None:
+        study = REPOSITORY / "scripts" / "studies" / "metals.toml"
+        order = Order(study, self.folder, settings=("render.samples=1",))
+        self.assertEqual(
+            " ".join(order.command("a")),
+            f"scripts/icwafer render scripts/studies/metals.toml -o {self.folder} "
+            "--set render.samples=1 --only a",
         )
 
     def test_only_what_is_missing_or_changed(self) -> None:

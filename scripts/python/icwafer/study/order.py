@@ -91,8 +91,8 @@ class Order:
         }
 
     def command(self, *jobs: str) -> list[str]:
-        """The words that render the study again, or some jobs of it."""
-        words = ["scripts/icwafer", "render", self.study, "-o", self.folder]
+        """The words that render the study again, or some jobs of it, in the repository's folder."""
+        words = ["scripts/icwafer", "render", _there(self.study), "-o", _there(self.folder)]
         for setting in self.settings:
             words += ["--set", setting]
         for job in jobs:
@@ -126,6 +126,12 @@ class Order:
             "scene": job.scene,
             "grating": [] if from_file else gratings(fields.picture_of(job.scene)),
         }
+
+
+def _there(path: Path) -> Path:
+    """A path as seen from the repository, where it is inside."""
+    inside = path.is_relative_to(paths.REPOSITORY)
+    return path.relative_to(paths.REPOSITORY) if inside else path
 
 
 def _colour_config(blender: Path) -> Path:
