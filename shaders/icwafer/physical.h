@@ -157,6 +157,8 @@ constexpr float mirror_reach = 5.5f;
 /* A narrow lobe whose middle is where the eye sees well matters no further than this. */
 constexpr float bright_first_nm = 425.0f, bright_last_nm = 670.0f, bright_sigma_nm = 16.0f;
 constexpr float bright_reach = 3.3f;
+/* Orders further apart than twice this many standard deviations are told apart. */
+constexpr float apart_reach = 3.0f;
 /* Steps above this are rounded down to whole nanometres. */
 constexpr float whole_step_nm = 2.0f;
 /* More orders than this are not summed one by one. */
@@ -455,13 +457,13 @@ struct Integrator {
   Lattice first, second;
   float q_first, q_second;
   Orders orders;
-  bool mirror = false, dense_fringes = false;
-  /* Only for the mirror order. */
-  MirrorBound bound;
+  /* Where the mirror order is in reach, what bounds it. */
+  const MirrorBound *bound = nullptr;
+  bool dense_fringes = false;
 
   /* Whether all nodes are whole nanometres, where the tables need no interpolation. */
   bool whole = false;
-  float wavelength_nm[lane_count], step_nm[lane_count], order[lane_count];
+  float wavelength_nm[lane_count] = {}, step_nm[lane_count] = {}, order[lane_count] = {};
   int count = 0;
   Lanes red = lanes(0.0f), green = lanes(0.0f), blue = lanes(0.0f);
   Lanes weight_red = lanes(0.0f), weight_green = lanes(0.0f), weight_blue = lanes(0.0f);
@@ -617,13 +619,13 @@ struct Integrator {
     const Lanes others_first = first_orders(wavelength, node_order, sigma_first, per_nm);
 
     Lanes f = r.contrast * others_first * (square(open_second) * zero_second + others_second);
-    if (mirror) {
+    if (bound) {
       const float ridge_part = covered(p.across, p.along);
       const float groove_part = 1.0f - ridge_part;
       Lanes eta = ridge_part * r.ridge + groove_part * r.groove -
                   ridge_part * groove_part * r.contrast;
       if (lanes_largest(eta) > 1.0f - 4.0f * ridge_part * groove_part) {
-        eta = bounded_mirror(p, bound, eta, film_ior, metal, per_nm);
+        eta = bounded_mirror(p, *bound, eta, film_ior, metal, per_nm);
       }
       f += lanes_gaussian(lanes(q_first), sigma_first) *
            (eta * zero_second + square(open_first) * r.contrast * others_second);
@@ -711,9 +713,11 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
                               Orders::All};
   const float q = nodes.q_first;
   const float spacing_nm = nodes.first.spacing_nm;
-  nodes.mirror = near_u && near_v;
-  if (nodes.mirror) {
-    nodes.bound = mirror_bound(p, pair);
+  const bool mirror = near_u && near_v;
+  MirrorBound bound;
+  if (mirror) {
+    bound = mirror_bound(p, pair);
+    nodes.bound = &bound;
   }
 
   /* Orders whose lobes reach into the visible range. */
@@ -722,7 +726,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   const int order_first = int(
       ceilf(larger((q - reach) / (1.0f + reach_spread) * spacing_nm / last_nm, 1.0f)));
   const float order_most = (q + reach) / larger(1.0f - reach_spread, 0.1f) * spacing_nm / first_nm;
-  if (!nodes.mirror && order_most < float(order_first)) {
+  if (!mirror && order_most < float(order_first)) {
     return {0.0f, 0.0f, 0.0f};
   }
 
@@ -747,7 +751,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
                                last_nm;
 
   /* One order after the other. */
-  if (!nodes.mirror && order_most - float(order_first) < float(window_limit)) {
+  if (!mirror && order_most - float(order_first) < float(window_limit)) {
     float node_count = 0.0f;
     const int order_last = int(order_most);
     for (int m = order_first; m <= order_last; m++) {
@@ -792,7 +796,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   float lobe_per_nm = 0.0f;
   const float slit_per_nm = two_pi * smaller(nodes.first.duty, 1.0f - nodes.first.duty) * q *
                             spacing_nm / square(blue_nm);
-  if (!nodes.mirror &&
+  if (!mirror &&
       two_pi * q * spacing_nm > (film_per_nm + 1.25f * lamp_per_nm) * square(last_nm)) {
     nodes.orders = Orders::Dense;
     nodes.dense_fringes = slit_per_nm < 0.4f;
@@ -800,7 +804,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   }
   else if (blurred_orders < 0.7f) {
     lobe_per_nm = gaussian_bandwidth / sigma_nm(first_nm);
-    if (2.0f * lobe_reach * blurred_orders * last_nm < first_nm) {
+    if (2.0f * apart_reach * blurred_orders * last_nm < first_nm) {
       nodes.orders = Orders::Single;
     }
   }
