@@ -33,7 +33,7 @@ namespace spectral_rule_detail {
 constexpr double begin_nm = 410.0, end_nm = 710.0, uniform_part = 0.7;
 /* Steps between the paths X that a rule is fitted at, and how much more X = 0 counts. */
 constexpr double path_step_nm = 100.0, flat_importance = 30.0;
-constexpr int descent_rounds = 600;
+constexpr int descent_rounds = 300;
 
 /* Wavelengths at (k + 1/2) / count of the cumulative density. */
 inline std::vector<double> quantiles(const ColourTable &sensitivities, const int count)
@@ -97,16 +97,18 @@ inline SpectralRule spectral_rule(const ColourTable &sensitivities,
   using namespace spectral_rule_detail;
   SpectralRule rule;
   rule.wavelength_nm = quantiles(sensitivities, count);
+  /* How much each X counts. */
+  std::vector<double> importance;
+  for (double x = 0.0; x <= 1.0; x += path_step_nm / path_nm) {
+    importance.push_back(x == 0.0 ? flat_importance : std::exp(-x * x));
+  }
   /* Sum over X of cos(2 pi X (1 / a - 1 / b)): the product of the functions at two wavelengths. */
   const auto product = [&](const double a, const double b) {
-    double sum = flat_importance;
-    const double angle = 2.0 * M_PI * path_step_nm * (1.0 / a - 1.0 / b);
-    const double cosine_1 = std::cos(angle);
-    double cosine = cosine_1, before = 1.0;
-    for (int k = 1; k * path_step_nm <= path_nm; k++) {
-      const double x = k * path_step_nm / path_nm;
-      sum += std::exp(-x * x) * cosine;
-      const double next = 2.0 * cosine_1 * cosine - before;
+    const double step = std::cos(2.0 * M_PI * path_step_nm * (1.0 / a - 1.0 / b));
+    double cosine = 1.0, before = step, sum = 0.0;
+    for (const double weight : importance) {
+      sum += weight * cosine;
+      const double next = 2.0 * step * cosine - before;
       before = cosine;
       cosine = next;
     }

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Processor time of a frame filled with the node, relative to one with Principled BSDF.
+"""Processor time of a frame with the node, relative to the same one with Principled BSDF.
 
     scripts/icwafer blender -b --factory-startup -P tests/benchmarks/frame_cost.py
 
-A plane under a sky and an area lamp, all materials in one run, the best of two rounds.
+Two kinds of frame: a plane under a sky and an area lamp, which the material fills, and the wafer in
+its studio, whose blocks drive the node by attributes. All materials in one run, the best of three
+rounds.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import resource
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -17,29 +21,70 @@ import bpy
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import frame_scene  # noqa: E402
 
-SIZE, SAMPLES, ROUNDS = (320, 240), 16, 2
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "python"))
+from icwafer.pictures import PICTURES  # noqa: E402
+from icwafer.scene import picture as picture_scene  # noqa: E402
+
+SIZE, SAMPLES, ROUNDS = (320, 240), 16, 3
+PRINCIPLED = {"Metallic": 1, "Roughness": 0.3, "Anisotropic": 0.8}
 
 
 def processor_seconds() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_utime
 
 
-scene, plane = frame_scene.scene(SIZE, SAMPLES)
-materials = {
-    "principled": frame_scene.material(
-        "ShaderNodeBsdfPrincipled", {"Metallic": 1, "Roughness": 0.3, "Anisotropic": 0.8}
-    ),
-    "1 um": frame_scene.material(frame_scene.NODE, {}),
-    "4 um": frame_scene.material(frame_scene.NODE, {"Wire Spacing": 4000, "Wire Width": 1000}),
-}
-plane.data.materials[0] = materials["principled"]
-bpy.ops.render.render()  # what is made once, before the clock starts
-best = dict.fromkeys(materials, float("inf"))
-for _ in range(ROUNDS):
-    for name, made in materials.items():
-        plane.data.materials[0] = made
-        start = processor_seconds()
-        bpy.ops.render.render()
-        best[name] = min(best[name], processor_seconds() - start)
-for name, seconds in best.items():
-    print(f"{name}: {seconds / best['principled']:.2f}")
+def compare(frame: str, use: dict[str, Callable[[], None]]) -> None:
+    """Prints the time of rendering after each of `use`, relative to the first."""
+    best = dict.fromkeys(use, float("inf"))
+    next(iter(use.values()))()
+    bpy.ops.render.render()  # what is made once, before the clock starts
+    for _ in range(ROUNDS):
+        for name, change in use.items():
+            change()
+            start = processor_seconds()
+            bpy.ops.render.render()
+            best[name] = min(best[name], processor_seconds() - start)
+    first = next(iter(best.values()))
+    for name, seconds in best.items():
+        print(f"{frame}, {name}: {seconds / first:.2f}")
+
+
+def compare_plane() -> None:
+    _, plane = frame_scene.scene(SIZE, SAMPLES)
+    materials = {
+        "Principled": frame_scene.material("ShaderNodeBsdfPrincipled", PRINCIPLED),
+        "1 um": frame_scene.material(frame_scene.NODE, {}),
+        "4 um": frame_scene.material(
+            frame_scene.NODE, {"Wire Spacing": 4000, "Wire Width": 1000}
+        ),
+    }
+    slots = plane.data.materials
+    compare(
+        "plane",
+        {name: lambda made=made: slots.__setitem__(0, made) for name, made in materials.items()},
+    )
+
+
+def compare_wafer() -> None:
+    studio = PICTURES["wafer_studio"]
+    render = dataclasses.replace(studio.render, size=SIZE, samples=SAMPLES, noise=0.0)
+    scene = picture_scene.build(dataclasses.replace(studio, render=render))
+    scene.render.use_persistent_data = True
+    tree = bpy.data.materials["Chip"].node_tree
+    wafer = next(node for node in tree.nodes if node.bl_idname == frame_scene.NODE)
+    principled = tree.nodes.new("ShaderNodeBsdfPrincipled")
+    for name, value in PRINCIPLED.items():
+        principled.inputs[name].default_value = value
+    socket = wafer.outputs["BSDF"].links[0].to_socket
+    compare(
+        "wafer",
+        {
+            node.bl_label: lambda node=node: tree.links.new(node.outputs["BSDF"], socket)
+            for node in (principled, wafer)
+        },
+    )
+
+
+compare_plane()
+compare_wafer()
+sys.exit(0)

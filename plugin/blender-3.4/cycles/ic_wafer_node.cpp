@@ -6,6 +6,8 @@
 #include "kernel/icwafer/material_tables.h"
 #include "scene/svm.h"
 
+#include "util/thread.h"
+
 CCL_NAMESPACE_BEGIN
 
 NODE_DEFINE(ICWaferBsdfNode)
@@ -149,11 +151,20 @@ void ICWaferBsdfNode::compile(OSLCompiler & /*compiler*/)
 
 vector<float> ic_wafer_tables(const float3 xyz_to_r, const float3 xyz_to_g, const float3 xyz_to_b)
 {
-  const std::vector<float> tables = icwafer::material_tables(
-      {{{xyz_to_r.x, xyz_to_r.y, xyz_to_r.z},
-        {xyz_to_g.x, xyz_to_g.y, xyz_to_g.z},
-        {xyz_to_b.x, xyz_to_b.y, xyz_to_b.z}}});
-  return vector<float>(tables.begin(), tables.end());
+  /* Kept, because a viewport asks at each change of any shader. */
+  static thread_mutex mutex;
+  static icwafer::XyzToRgb kept_for;
+  static std::vector<float> kept;
+
+  const icwafer::XyzToRgb matrix = {{{xyz_to_r.x, xyz_to_r.y, xyz_to_r.z},
+                                     {xyz_to_g.x, xyz_to_g.y, xyz_to_g.z},
+                                     {xyz_to_b.x, xyz_to_b.y, xyz_to_b.z}}};
+  thread_scoped_lock lock(mutex);
+  if (kept.empty() || kept_for != matrix) {
+    kept = icwafer::material_tables(matrix);
+    kept_for = matrix;
+  }
+  return vector<float>(kept.begin(), kept.end());
 }
 
 CCL_NAMESPACE_END
