@@ -38,6 +38,30 @@ for name, file in json.load(sys.stdin).items():
     layout.write(name)
 """
 
+#: A chip of 30 x 30 um, full of wires of met2 in every track, 460 nm apart and 140 nm wide.
+TRACKS_DEF = (
+    "VERSION 5.8 ;\nDESIGN chip ;\nUNITS DISTANCE MICRONS 1000 ;\n"
+    "DIEAREA ( 0 0 ) ( 30000 30000 ) ;\nNETS 1 ;\n- n + ROUTED met2 ( 230 0 ) ( * 30000 )\n"
+    + "".join(f"  NEW met2 ( {230 + 460 * i} 0 ) ( * 30000 )\n" for i in range(1, 64))
+    + " ;\nEND NETS\nEND DESIGN\n"
+)
+TRACKS_LEF = """VERSION 5.7 ;
+UNITS
+  DATABASE MICRONS 1000 ;
+END UNITS
+LAYER met2
+  TYPE ROUTING ;
+  DIRECTION VERTICAL ;
+  PITCH 0.46 ;
+  WIDTH 0.14 ;
+END met2
+MACRO cell
+  CLASS CORE ;
+  SIZE 2 BY 2 ;
+END cell
+END LIBRARY
+"""
+
 Corners = list[tuple[float, float]]
 
 

@@ -94,7 +94,7 @@ class DoctorTest(CommandCase):
         write(paths.BLENDER, "#!/bin/sh\nexit 139\n", 0o755)
         self.expect(doctor.check_start(), "exit status 139", "run scripts/icwafer")
         write(paths.BLENDER, "#!/bin/sh\nexit 0\n", 0o755)
-        self.expect(doctor.check_start(), "has the node", "")
+        self.expect(doctor.check_start(), "has the node and the add-on", "")
 
     def test_a_check_that_cannot_be_made_is_a_failure(self) -> None:
         def check() -> doctor.Finding:

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from import_support import box, wires, write_layouts
+from import_support import TRACKS_DEF, TRACKS_LEF, box, wires, write_layouts
 from matplotlib.image import imread
 from support import REPOSITORY, CommandCase, write
 
@@ -18,23 +18,6 @@ from icwafer.layout_import.reader import Request
 
 #: A real chip, where the data is at hand.
 REAL_CHIP = REPOSITORY.parent / "shared" / "data" / "gds" / "gatecat_fpga_top.gds.gz"
-
-LEF = """VERSION 5.7 ;
-UNITS
-  DATABASE MICRONS 1000 ;
-END UNITS
-LAYER met2
-  TYPE ROUTING ;
-  DIRECTION VERTICAL ;
-  PITCH 0.46 ;
-  WIDTH 0.14 ;
-END met2
-MACRO cell
-  CLASS CORE ;
-  SIZE 2 BY 2 ;
-END cell
-END LIBRARY
-"""
 
 
 def nm(polygons: list) -> list:
@@ -85,16 +68,8 @@ class Gratings(ImportCase):
         self.assertAlmostEqual(finding.visible, 0.25, delta=1e-3)
 
     def test_def_with_its_lef(self) -> None:
-        tracks = "".join(
-            f"  NEW met2 ( {230 + 460 * i} 0 ) ( * 30000 )\n" for i in range(1, 64)
-        )
-        design = write(
-            self.folder / "chip.def",
-            "VERSION 5.8 ;\nDESIGN chip ;\nUNITS DISTANCE MICRONS 1000 ;\n"
-            "DIEAREA ( 0 0 ) ( 30000 30000 ) ;\nNETS 1 ;\n"
-            f"- n + ROUTED met2 ( 230 0 ) ( * 30000 )\n{tracks} ;\nEND NETS\nEND DESIGN\n",
-        )
-        lef = write(self.folder / "tech.lef", LEF)
+        design = write(self.folder / "chip.def", TRACKS_DEF)
+        lef = write(self.folder / "tech.lef", TRACKS_LEF)
         (finding,) = imported(design, lef=(lef,)).findings[0, 0]
         self.assertLess(abs(finding.grating.period_um / 0.46 - 1), 1e-3)
         self.assertLess(abs(finding.grating.duty * 0.46 / 0.14 - 1), 1e-2)

@@ -18,9 +18,12 @@ from pathlib import Path
 from typing import NoReturn
 
 from icwafer import build, doctor, layout_command, packages, paths, render, source
+from icwafer.assets import command as assets_command
 from icwafer.compare import command as compare_command
+from icwafer.compare import merge as merge_command
 from icwafer.errors import IcwaferError
 from icwafer.portrait import command as portrait_command
+from icwafer.report import animate as animate_command
 from icwafer.report import command as report_command
 from icwafer.study import command as study_command
 
@@ -56,6 +59,8 @@ def _pictures(arguments: argparse.Namespace) -> int:
 
 def _build(arguments: argparse.Namespace) -> int:
     build.build(arguments.target, build.definitions(arguments.definitions))
+    if arguments.target == "blender":
+        assets_command.build_library()
     return 0
 
 
@@ -78,6 +83,7 @@ def _test(arguments: list[str]) -> int:
     packages.install("base", "images", "core", "host", "layout", "import", "test")
     build.build("core")
     build.build("blender")
+    assets_command.build_library()
     return subprocess.run(
         ["ctest", "--preset", "core", *arguments], cwd=paths.REPOSITORY
     ).returncode
@@ -125,6 +131,7 @@ def _parser() -> _Parser:
     add("doctor", "check dependencies, source edits and build").set_defaults(run=_doctor)
     layout_command.register(add)
     portrait_command.register(add)
+    assets_command.register(add)
     pictures = add("pictures", "render the README's pictures to out/pictures")
     pictures.add_argument(
         "names", nargs="*", metavar="NAME", help="pictures; all if none is named"
@@ -137,7 +144,9 @@ def _parser() -> _Parser:
     )
     source_command.set_defaults(run=_source)
     compare_command.register(add)
+    merge_command.register(add)
     report_command.register(add)
+    animate_command.register(add)
     return parser
 
 

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from icwafer import build, packages, paths
+from icwafer.assets.plan import KINDS, installed_folder
 from icwafer.errors import IcwaferError
 from icwafer.source import host_edits
 
-#: Blender is started with this; it fails if the node is not in it.
-NODE_PROBE = "import bpy; bpy.types.ShaderNodeBsdfICWafer"
+#: Blender is started with this; it fails if the node or the add-on is not in it.
+PROBE = "import bpy; bpy.types.ShaderNodeBsdfICWafer; bpy.types.MESH_OT_ic_die_add"
 
 
 @dataclass(frozen=True)
@@ -108,13 +109,13 @@ def check_core() -> Finding:
 
 
 def check_start() -> Finding:
-    """Blender starts without a window, its Python works, and it knows the node."""
+    """Blender starts without a window, its Python works, and it knows node and add-on."""
     mend = "run scripts/icwafer build blender; if that does not help, remove build/install first"
     blender = paths.BLENDER
     command = [blender, "-b", "--factory-startup", "--python-exit-code", "1"]
     try:
         done = subprocess.run(
-            [*map(str, command), "--python-expr", NODE_PROBE],
+            [*map(str, command), "--python-expr", PROBE],
             capture_output=True,
             text=True,
             timeout=120,
@@ -127,7 +128,16 @@ def check_start() -> Finding:
         lines = (done.stderr or done.stdout).strip().splitlines()
         reason = lines[-1] if lines else f"exit status {done.returncode}"
         return Finding("Blender's start", f"{blender}: {reason}", mend)
-    return Finding("Blender's start", "starts, and has the node")
+    return Finding("Blender's start", "starts, and has the node and the add-on")
+
+
+def check_assets() -> Finding:
+    """The asset library is there; whether it is up to date, its own command finds out."""
+    folder = installed_folder()
+    missing = [kind for kind in KINDS if not (folder / f"{kind}.blend").is_file()]
+    if missing:
+        return Finding("asset library", f"no {missing[0]} in {folder}", "run scripts/icwafer assets")
+    return Finding("asset library", f"{', '.join(KINDS)} in {folder}")
 
 
 def checks() -> list[Callable[[], Finding]]:
@@ -145,6 +155,7 @@ def checks() -> list[Callable[[], Finding]]:
         lambda: check_program("cycles", bin_folder / "cycles", paths.CYCLES, "blender"),
         lambda: check_program("Blender", bin_folder / "blender", paths.BLENDER, "blender"),
         check_start,
+        check_assets,
     ]
 
 

@@ -13,10 +13,10 @@ import bpy
 PATIENCE_S = 3.0
 
 
-def in_window(*steps: Callable[[], None], pause_s: float = PATIENCE_S) -> None:
+def in_window(*steps: Callable[[], bool | None], pause_s: float = PATIENCE_S) -> None:
     """Call `steps` one after the other, the window being drawn before each, then leave Blender.
 
-    An error in a step is exit status 1.
+    A step that returns True is called again: what it waits for is not there yet. An error in a step is exit status 1.
     """
     left = list(steps)
     bpy.context.preferences.view.show_splash = False
@@ -24,7 +24,8 @@ def in_window(*steps: Callable[[], None], pause_s: float = PATIENCE_S) -> None:
     def next_step() -> float | None:
         try:
             if left:
-                left.pop(0)()
+                if not left[0]():
+                    left.pop(0)
                 return pause_s
             bpy.ops.wm.quit_blender()
         except BaseException:

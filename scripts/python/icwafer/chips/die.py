@@ -108,3 +108,10 @@ def _draw(
             values[name][cells] = spread.mean if same else spread.draw(rng, len(cells))
     np.clip(values["diffraction"], 0.0, 1.0, out=values["diffraction"])
     return values
+
+
+def main_direction_rad(die: Die) -> float:
+    """The direction of the wires that cover most of a die, each as much as it diffracts."""
+    directions, place = np.unique(die.direction_rad, return_inverse=True)
+    weights = np.bincount(place, die.area_nm2 * die.diffraction)
+    return float(directions[np.argmax(weights)])

@@ -24,6 +24,10 @@ class Spread(ABC):
     def draw(self, rng: np.random.Generator, count: int) -> np.ndarray:
         """`count` values, float64."""
 
+    @abstractmethod
+    def moved(self, mean: float, deviation: float) -> Spread:
+        """The same shape elsewhere: with another mean and standard deviation, at least 0."""
+
 
 @dataclass(frozen=True)
 class Normal(Spread):
@@ -44,6 +48,9 @@ class Normal(Spread):
         unit = np.clip(rng.standard_normal(count), -3.0, 3.0)
         return self.mean + self.deviation * unit
 
+    def moved(self, mean: float, deviation: float) -> Normal:
+        return Normal(mean, deviation)
+
 
 @dataclass(frozen=True)
 class Uniform(Spread):
@@ -62,6 +69,10 @@ class Uniform(Spread):
 
     def draw(self, rng: np.random.Generator, count: int) -> np.ndarray:
         return self.mean + self.deviation * rng.uniform(-(3**0.5), 3**0.5, count)
+
+    def moved(self, mean: float, deviation: float) -> Uniform:
+        half = 3**0.5 * deviation
+        return Uniform(mean - half, mean + half)
 
 
 @dataclass(frozen=True)
@@ -94,3 +105,10 @@ class Clustered(Spread):
     def draw(self, rng: np.random.Generator, count: int) -> np.ndarray:
         centres = np.array(self.centres)[rng.integers(len(self.centres), size=count)]
         return centres + self.cluster_deviation * np.clip(rng.standard_normal(count), -3.0, 3.0)
+
+    def moved(self, mean: float, deviation: float) -> Spread:
+        if not self.deviation:
+            return Normal(mean, deviation)
+        scale = deviation / self.deviation
+        centres = tuple(mean + scale * (centre - self.mean) for centre in self.centres)
+        return Clustered(centres, scale * self.cluster_deviation)

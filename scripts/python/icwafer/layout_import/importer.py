@@ -6,8 +6,7 @@ from __future__ import annotations
 import os
 import signal
 from collections import deque
-from collections.abc import Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,10 +33,13 @@ class Imported:
     looks: dict[tuple[int, int], Look]
 
 
-def import_layout(request: Request) -> Imported:
+def import_layout(
+    request: Request, progress: Callable[[float], None] = lambda _: None
+) -> Imported:
     """Reads a chip and finds what it is made of; one tile after the other, on all processors.
 
-    Raises IcwaferError where the file cannot be read.
+    progress is told how much of the tiles is done, 0 to 1. Raises IcwaferError where the file
+    cannot be read.
     """
     parts = cut_out(request)
     chip = next(parts)
@@ -45,7 +47,9 @@ def import_layout(request: Request) -> Imported:
         (column, row): [] for row in range(chip.tiles[1]) for column in range(chip.tiles[0])
     }
     any_metal = False
-    for cutout, gratings in _examined(parts):
+    cutouts = len(found) * len(request.process.layers)
+    for number, (cutout, gratings) in enumerate(_examined(parts)):
+        progress(number / cutouts)
         any_metal |= len(cutout.outline.edges_um) > 0
         found[cutout.tile] += [Finding(cutout.layer, cutout.visible, g) for g in gratings]
     if not any_metal:
@@ -61,6 +65,10 @@ def import_layout(request: Request) -> Imported:
 
 def _examined(parts: Iterator[Cutout]) -> Iterator[tuple[Cutout, list]]:
     """The gratings of each cutout, in order; never many cutouts at once."""
+    # Not above: multiprocessing keeps a reference to the main module, and Blender, which also
+    # imports this one, frees that of a script on its command line and crashes when it ends.
+    from concurrent.futures import Future, ProcessPoolExecutor
+
     jobs = len(os.sched_getaffinity(0))
     with ProcessPoolExecutor(jobs, initializer=_leave_interrupts_to_the_parent) as pool:
         waiting: deque[tuple[Cutout, Future]] = deque()

@@ -124,6 +124,11 @@ def _read(request: Request, most_solids: int) -> Iterator[Chip | Cutout | Solids
 
 
 def _start() -> subprocess.Popen:
+    if not (KLAYOUT / "pymod").is_dir():
+        raise IcwaferError(
+            "KLayout, which reads layout files, is not installed; run as root: "
+            "apt-get install klayout"
+        )
     package = Path(__file__).resolve().parents[2]
     environment = os.environ | {
         "PYTHONPATH": f"{package}:{KLAYOUT / 'pymod'}",

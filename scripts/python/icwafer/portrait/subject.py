@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -35,10 +36,18 @@ class Subject:
 
 
 def subject_of(
-    path: Path, layers: str, lef: tuple[Path, ...], top: str | None, wafer: bool
+    path: Path,
+    layers: str,
+    lef: tuple[Path, ...],
+    top: str | None,
+    wafer: bool,
+    tile_um: float | None = None,
+    window_um: float | None = None,
+    progress: Callable[[float], None] = lambda _: None,
 ) -> Subject:
     """Reads a layout file, or imports a chip; `layers` names its process or a layer map.
 
+    top, tile_um, window_um: see `reader.Request`. progress is told how much is done, 0 to 1.
     Raises IcwaferError where the file cannot be read.
     """
     if path.name.endswith(ENDING):
@@ -50,8 +59,8 @@ def subject_of(
             "name such a file"
         )
     process = read_process(layers)
-    request = Request(path=path, process=process, top=top, lef=lef)
-    imported = import_layout(request)
+    request = Request(path, process, tile_um, window_um, top, lef)
+    imported = import_layout(request, progress)
     node = {"metal": _metal(process)}
     if wafer:
         return Subject(_with_wafer(imported.layout), node=node)

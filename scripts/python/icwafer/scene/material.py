@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import bpy
 
+from icwafer.attributes import OF_INSTANCES
 from icwafer.errors import IcwaferError
 from icwafer.pictures import NodeValue
 from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
@@ -16,7 +17,7 @@ NODE = "ShaderNodeBsdfICWafer"
 
 #: The attributes of instances on a wafer by what they change, and what each attribute of a block
 #: changes with: value x (1 + drift).
-DRIFTS = {"oxide": "ic_oxide_drift", "groove": "ic_groove_drift", "width": "ic_width_drift"}
+DRIFTS = {attribute.socket: attribute.name for attribute in OF_INSTANCES}
 DRIFTING = {
     "ic_oxide_nm": "oxide",
     "ic_groove_nm": "groove",

@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from icwafer.attributes import OF_FACES
 from icwafer.chips.clip import Pieces
 from icwafer.chips.model import MM, UM, Die
 from icwafer.scene.polygons import add_attribute, polygon_mesh
@@ -13,18 +14,7 @@ from icwafer.scene.polygons import add_attribute, polygon_mesh
 GAP_NM = 8 * UM  # the dark line between two blocks: one pixel in a picture of a whole die
 
 #: The face attributes that a die's mesh carries, and the sockets that each one drives.
-SOCKET_OF_ATTRIBUTE = {
-    "ic_spacing_nm": "Wire Spacing",
-    "ic_width_nm": "Wire Width",
-    "ic_oxide_nm": "Oxide Thickness",
-    "ic_direction_rad": "Direction",
-    "ic_diffraction": "Diffraction",
-    "ic_spacing_variation": "Spacing Variation",
-    "ic_cross_spacing_nm": "Cross Spacing",
-    "ic_cross_width_nm": "Cross Width",
-    "ic_groove_nm": "Groove Depth",
-}
-
+SOCKET_OF_ATTRIBUTE = {attribute.name: attribute.socket for attribute in OF_FACES}
 
 #: How far below the blocks the ground between them lies, and the wafer below that: enough to tell
 #: them apart in single precision, too little to be seen.

@@ -27,16 +27,7 @@ def build(picture: Picture) -> bpy.types.Scene:
     Raises IcwaferError in a Blender without the node.
     """
     scene = empty_scene()
-    if picture.wafer:
-        ready = PRESETS[picture.wafer]
-        layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
-        add_wafer(layout, scene.collection, parts(picture.node))
-    elif picture.table.size_mm:
-        scene.collection.objects.link(_die_on_table(picture))
-    else:
-        die = bpy.data.objects.new("Die", die_mesh(generate(picture.die)))
-        die.data.materials.append(wafer_material(picture.node))
-        scene.collection.objects.link(die)
+    add_subject(picture, scene.collection)
     if picture.table.size_mm:
         scene.collection.objects.link(table_object(picture.table))
     for light in picture.lights:
@@ -49,12 +40,22 @@ def build(picture: Picture) -> bpy.types.Scene:
     return scene
 
 
-def _die_on_table(picture: Picture) -> bpy.types.Object:
-    """A die with the ground between its blocks."""
-    materials = parts(picture.node)
-    die = bpy.data.objects.new("Die", die_mesh(generate(picture.die), ground=True))
-    for material in (materials.blocks, materials.ground):
-        die.data.materials.append(material)
+def add_subject(picture: Picture, collection: bpy.types.Collection) -> bpy.types.Object:
+    """Links the picture's wafer or die, in mm around the origin, to a collection."""
+    if picture.wafer:
+        ready = PRESETS[picture.wafer]
+        layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
+        return add_wafer(layout, collection, parts(picture.node))
+    # On a table a die has the ground between its blocks.
+    on_table = picture.table.size_mm > 0
+    die = bpy.data.objects.new("Die", die_mesh(generate(picture.die), ground=on_table))
+    if on_table:
+        materials = parts(picture.node)
+        die.data.materials.append(materials.blocks)
+        die.data.materials.append(materials.ground)
+    else:
+        die.data.materials.append(wafer_material(picture.node))
+    collection.objects.link(die)
     return die
 
 

@@ -26,7 +26,7 @@ def table_object(table: Table) -> bpy.types.Object:
 def _fading(table: Table) -> bpy.types.Material:
     material = metal_material("Table", table.colour, table.roughness)
     tree = material.node_tree
-    place = tree.nodes.new("ShaderNodeNewGeometry")
+    place = tree.nodes.new("ShaderNodeTexCoord")
     distance = tree.nodes.new("ShaderNodeVectorMath")
     distance.operation = "LENGTH"
     near = tree.nodes.new("ShaderNodeMapRange")
@@ -40,7 +40,7 @@ def _fading(table: Table) -> bpy.types.Material:
     for row, node in enumerate((place, distance, near, colour)):
         node.location = (200 * row - 1000, 0)
     principled = tree.nodes["Principled BSDF"]
-    tree.links.new(place.outputs["Position"], distance.inputs[0])
+    tree.links.new(place.outputs["Object"], distance.inputs[0])
     tree.links.new(distance.outputs["Value"], near.inputs["Value"])
     tree.links.new(near.outputs["Result"], colour.inputs["Scale"])
     tree.links.new(colour.outputs["Vector"], principled.inputs["Base Color"])

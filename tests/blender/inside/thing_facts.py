@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What an object made by the add-on is, as far as a test wants to know."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+
+def values_of(attribute: bpy.types.Attribute) -> list[float]:
+    values = np.empty(len(attribute.data), dtype=np.float32)
+    attribute.data.foreach_get("value", values)
+    return [float(values.min()), float(values.max()), float(values.astype(np.float64).sum())]
+
+
+def instances_of(thing: bpy.types.Object) -> int:
+    """How many instances an object has after its modifiers."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    return sum(
+        instance.is_instance and instance.parent.original == thing
+        for instance in depsgraph.object_instances
+    )
+
+
+def thing_facts(thing: bpy.types.Object) -> dict[str, object]:
+    """What an object is: place, size, faces, materials and attributes."""
+    mode = thing.mode
+    bpy.ops.object.mode_set(mode="OBJECT")  # else its mesh is not up to date
+    return {
+        "name": thing.name,
+        "mode": mode,
+        "selected": [other.name for other in bpy.context.view_layer.objects.selected],
+        "location": list(thing.location),
+        "rotation": list(thing.rotation_euler),
+        "scale": list(thing.scale),
+        "dimensions": list(thing.dimensions),
+        "faces": len(thing.data.polygons),
+        "materials": [slot.material.name for slot in thing.material_slots],
+        "instances": instances_of(thing),
+        "attributes": {
+            attribute.name: values_of(attribute)
+            for attribute in thing.data.attributes
+            if attribute.name.startswith("ic_") and attribute.data_type == "FLOAT"
+        },
+    }
