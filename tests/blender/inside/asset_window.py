@@ -17,6 +17,7 @@ from wafer_scene import NODE
 from window import area_of, context_of, in_window
 
 facts: dict[str, Any] = {}
+last_shot = [np.empty(0, dtype=np.float32)]
 
 
 def open_browser() -> None:
@@ -29,7 +30,7 @@ def choose_library() -> None:
 
 
 def shoot_browser() -> bool:
-    """Takes a picture; returns whether previews are still missing in it, which are loaded aside."""
+    """Takes a picture; returns whether it still changes or is grey: previews are loaded aside."""
     region = context_of(area_of("FILE_BROWSER"))["region"]
     png = parameters()["browser_png"]
     bpy.ops.screen.screenshot(filepath=png)
@@ -38,8 +39,10 @@ def shoot_browser() -> bool:
     pixels = np.empty(len(picture.pixels), dtype=np.float32)
     picture.pixels.foreach_get(pixels)
     bpy.data.images.remove(picture)
-    # Symbols of files stand in for previews, light grey and large.
-    return bool((pixels.reshape(-1, 4)[:, :3].min(axis=1) > 0.7).mean() > 0.005)
+    changed = not np.array_equal(pixels, last_shot[0])
+    last_shot[:] = [pixels]
+    coloured = np.ptp(pixels.reshape(-1, 4)[:, :3], axis=1) > 0.25
+    return changed or coloured.mean() < 0.005
 
 
 def spacings() -> list[float]:
