@@ -36,13 +36,15 @@ def shoot_browser() -> bool:
     bpy.ops.screen.screenshot(filepath=png)
     facts["assets"] = [region.x, region.y, region.x + region.width, region.y + region.height]
     picture = bpy.data.images.load(png)
-    pixels = np.empty(len(picture.pixels), dtype=np.float32)
+    width, height = picture.size
+    pixels = np.empty(4 * width * height, dtype=np.float32)
     picture.pixels.foreach_get(pixels)
     bpy.data.images.remove(picture)
-    changed = not np.array_equal(pixels, last_shot[0])
-    last_shot[:] = [pixels]
-    coloured = np.ptp(pixels.reshape(-1, 4)[:, :3], axis=1) > 0.25
-    return changed or coloured.mean() < 0.005
+    left, bottom, right, top = facts["assets"]
+    assets = pixels.reshape(height, width, 4)[bottom:top, left:right, :3].copy()
+    changed = not np.array_equal(assets, last_shot[0])
+    last_shot[:] = [assets]
+    return changed or (np.ptp(assets, axis=2) > 0.25).mean() < 0.01
 
 
 def spacings() -> list[float]:
