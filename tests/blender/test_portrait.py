@@ -46,7 +46,7 @@ class PortraitTest(unittest.TestCase):
         png.unlink(missing_ok=True)
         done = subprocess.run(
             [ROOT / "scripts" / "icwafer", "portrait", self.folder / name, "-o", png]
-            + ["--size", "{}x{}".format(*SIZE), "--samples", "4", *options],
+            + ["--size", "{}x{}".format(*SIZE), "--samples", "8", *options],
             env=os.environ | {"ICWAFER_BLENDER": str(host.built_blender())},
             capture_output=True,
             text=True,
@@ -62,7 +62,7 @@ class PortraitTest(unittest.TestCase):
         self.assertEqual(image.shape, (SIZE[1], SIZE[0], 3))
         self.assertLess(np.median(image[-4:, :10]), 0.3)
         value = image[18:-18, 32:-32].max(axis=-1)
-        self.assertGreater(np.median(value), 0.1)
+        self.assertGreater(np.percentile(value, 75), 0.2)  # between wires it is dark
         self.assertGreater(value.std(), 0.05)
         self.assertLess((image.min(axis=-1) > 0.97).mean(), 0.1)
         lit = image[18:-18, 32:-32][value > 0.1]
