@@ -102,6 +102,7 @@ if(ICWAFER_BUILD STREQUAL "blender")
       ${package}/attributes.py
       ${package}/errors.py
       ${package}/files.py
+      ${package}/suggest.py
       ${package}/toml_lines.py
     DESTINATION ${installed_scripts}/modules/icwafer
   )

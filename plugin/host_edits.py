@@ -7,9 +7,10 @@
 The edits are data: `edits.toml` in a folder per host version.
 
     version = "3.4.1"
-    [[add]]                   # a file, or a folder's *.h files at any depth
+    [[add]]                   # a file, or files of a folder at any depth
     from = "shaders/icwafer"  # relative to the repository
     to = "intern/cycles/kernel/icwafer"
+    files = "*.jpg"           # optional: which files of a folder, *.h if left out
     [[edit]]
     file = "source/blender/blenkernel/BKE_node.h"
     anchor = "exact text"     # one or several lines; found exactly once in the unedited file
@@ -132,8 +133,9 @@ def load_edits(host: Path, repository: Path = REPOSITORY) -> HostEdits:
     _expect_keys(content, {"version"}, {"add", "edit"}, f"{source}")
     added: dict[str, Path] = {}
     for item in content.get("add", []):
-        _expect_keys(item, {"from", "to"}, set(), f"{source}: [[add]]")
-        added |= _added_files(repository, item["from"], _inside(item["to"], source), source)
+        _expect_keys(item, {"from", "to"}, {"files"}, f"{source}: [[add]]")
+        target, wanted = _inside(item["to"], source), item.get("files", "*.h")
+        added |= _added_files(repository, item["from"], wanted, target, source)
     edits: dict[str, list[Edit]] = {}
     for item in content.get("edit", []):
         edit = _read_edit(item, source)
@@ -162,16 +164,18 @@ def _inside(path: str, source: Path) -> str:
     return pure.as_posix()
 
 
-def _added_files(repository: Path, origin: str, target: str, source: Path) -> dict[str, Path]:
+def _added_files(
+    repository: Path, origin: str, wanted: str, target: str, source: Path
+) -> dict[str, Path]:
     ours = repository / origin
     if ours.is_file():
         return {target: ours}
-    headers = sorted(ours.rglob("*.h")) if ours.is_dir() else []
-    if not headers:
+    files = sorted(ours.rglob(wanted)) if ours.is_dir() else []
+    if not files:
         raise HostEditError(
-            f"{source}: [[add]] '{origin}' is neither a file nor a folder with *.h"
+            f"{source}: [[add]] '{origin}' is neither a file nor a folder with {wanted}"
         )
-    return {f"{target}/{header.relative_to(ours).as_posix()}": header for header in headers}
+    return {f"{target}/{file.relative_to(ours).as_posix()}": file for file in files}
 
 
 def _read_edit(item: dict[str, str], source: Path) -> Edit:

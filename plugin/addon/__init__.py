@@ -24,7 +24,7 @@ from . import (
 
 bl_info = {
     "name": "IC Wafer",
-    "description": "Chips and wafers with the colours of diffraction, made up or from layout files",
+    "description": "Chips and wafers with the colours of diffraction, generated or imported",
     "version": (1, 0, 0),
     "blender": (3, 4, 0),
     "location": "Add > Mesh; File > Import; Properties > Object Data and Material",

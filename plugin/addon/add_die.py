@@ -47,14 +47,14 @@ def add_wires(
     from icwafer.chips.die import generate, main_direction_rad
     from icwafer.scene.material import chip_material
     from icwafer.scene.parts import metal_material
-    from icwafer.scene.portrait import WIRE_COLOUR, WIRE_ROUGHNESS
+    from icwafer.scene.portrait import SIDE_COLOUR, WIRE_COLOUR, WIRE_ROUGHNESS
     from icwafer.scene.wires import wires_mesh
 
     mesh = wires_mesh(wires)
     mesh.name = name
     values = operator.node_values()
     mesh.materials.append(chip_material("Wires", values, WIRE_COLOUR, WIRE_ROUGHNESS))
-    mesh.materials.append(metal_material("Wire Sides", WIRE_COLOUR, WIRE_ROUGHNESS))
+    mesh.materials.append(metal_material("Wire Sides", SIDE_COLOUR, WIRE_ROUGHNESS))
     longest_mm = max(spec.width_mm, spec.height_mm)
     operator.add_mesh(context, mesh, longest_mm, main_direction_rad(generate(spec)))
 

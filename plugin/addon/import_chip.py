@@ -109,6 +109,9 @@ class IMPORT_SCENE_OT_ic_chip(WaferOptions, PlacingOptions, ImportHelper, bpy.ty
         layout, name = subject.layout, chip.name.split(".")[0]
         self.process_values = subject.node
         if self.kind == "WAFER":
+            for field, value in self.wafer_numbers_of(layout.wafer).items():
+                if not self.properties.is_property_set(field):
+                    setattr(self, field, value)
             self.add_wafer(context, layout.dies, layout.wafer, name)
         elif self.kind == "WIRES" and subject.wires:
             add_wires(self, context, layout.dies[0], subject.wires, name)
@@ -137,7 +140,7 @@ class IMPORT_SCENE_OT_ic_chip(WaferOptions, PlacingOptions, ImportHelper, bpy.ty
         if len(chips) != 1:
             names = ", ".join(path.name for path in chips) or "none"
             raise IcwaferError(
-                f"Select one chip, and its LEF files or layer map if it needs them; these are "
+                "Select one chip, and its LEF files or layer map if it needs them; these are "
                 f"chips: {names}"
             )
         return chips[0]

@@ -25,7 +25,7 @@ from .placing import PlacingOptions, items_of
 if TYPE_CHECKING:
     from icwafer.chips.model import DieSpec, Group, Layout
 
-#: More would make Blender wait: so many take about two seconds.
+#: More would make Blender wait: so many take about three seconds of computing.
 MOST_BLOCKS = 1_000_000
 
 #: Blender needs the texts of an enumeration's items to live as long as they are shown.

@@ -3,16 +3,19 @@
 """Write ic_wafer_bsdf.html, the page that F1 opens on the node, from the table of its inputs.
 
 The inputs come from shaders/icwafer/node_inputs.h, the same table that Blender's sockets and
-tooltips are made of. With --check nothing is written; the exit status says whether the page is up
-to date.
+tooltips are made of, their pictures from sweeps.py. With --check nothing is written; the exit
+status says whether the page is up to date.
 """
 
 import html
+import math
 import re
 import string
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+
+from sweeps import SWEEPS, Sweep
 
 HERE = Path(__file__).resolve().parent
 TABLE = HERE.parents[1] / "shaders" / "icwafer" / "node_inputs.h"
@@ -55,38 +58,126 @@ def float_inputs() -> list[FloatInput]:
         if match is None:
             raise SystemExit(f"{TABLE}: cannot read this row of the table: {row.strip()[:60]}")
         identifier, name, initial, minimum, maximum, kind, model, tooltip = match.groups()
-        inputs.append(FloatInput(
-            identifier, name, float(initial), float(minimum), float(maximum), kind, model,
-            "".join(re.findall(r'"([^"]*)"', tooltip)),
-        ))
+        inputs.append(
+            FloatInput(
+                identifier,
+                name,
+                float(initial),
+                float(minimum),
+                float(maximum),
+                kind,
+                model,
+                "".join(re.findall(r'"([^"]*)"', tooltip)),
+            )
+        )
     return inputs
 
 
-def _row(name: str, initial: str, meaning: str) -> str:
-    cells = (f"<th scope=row>{html.escape(name)}", f"<td>{initial}", f"<td>{html.escape(meaning)}.")
-    return "<tr>" + "".join(cells)
-
-
-def _rows(model: str) -> str:
-    """The table rows of the inputs that only this model has, or of those that both have."""
-    return "\n".join(
-        _row(i.name, f"{i.initial:g}", i.tooltip) for i in float_inputs() if i.model == model
+def _entry(name: str, initial: str, meaning: str, limits: str = "") -> str:
+    """An input or menu with its pictures."""
+    identity = name.lower().replace(" ", "-")
+    facts = f"default {initial}" + (f", {limits}" if limits else "")
+    return (
+        f'<section class=input id="{identity}">\n<h3>{html.escape(name)} '
+        f"<small>{facts}</small></h3>\n<p>{meaning}.</p>\n{_pictures(SWEEPS[name])}</section>"
     )
+
+
+def _pictures(sweep: Sweep) -> str:
+    note = (
+        f"<p class=note>In these pictures: {html.escape(sweep.note)}.</p>\n" if sweep.note else ""
+    )
+    figures = "".join(
+        f'<figure><img src="{sweep.file(panel).relative_to(HERE)}" width=200 height=200 loading=lazy '
+        f'alt="{html.escape(f"{sweep.name}: {panel.label}")}">'
+        f"<figcaption>{html.escape(panel.label)}</figcaption></figure>\n"
+        for panel in sweep.panels
+    )
+    return f"<div class=panels>\n{figures}</div>\n{note}"
+
+
+def _floats(model: str) -> str:
+    """The inputs that only this model has, or those that both have."""
+    return "\n".join(
+        _entry(i.name, _number(i, i.initial), html.escape(i.tooltip),
+               f"{_number(i, i.minimum)} to {_number(i, i.maximum)}")
+        for i in float_inputs() if i.model == model
+    )  # fmt: skip
+
+
+def _number(of: FloatInput, value: float) -> str:
+    """As Blender shows it."""
+    text = f"{math.degrees(value):.4g}°" if of.kind == "ANGLE" else f"{value:.6g}"
+    return text.replace("-", "−")
+
+
+#: Inputs and menus that are not in the table, by where they stand: default and meaning, as HTML.
+_OTHERS = {
+    "first": {
+        "Color": ("white", "Tint of everything that is reflected. White: the colours of physics"),
+    },
+    "frame": {
+        "Normal": (
+            "the geometry's own",
+            "Direction of the surface, as from a Bump or Normal Map node. Small slopes move the "
+            "colours far: a hundredth is enough for the waviness of a wafer",
+        ),
+        "Tangent": (
+            "the object's X axis",
+            "Direction from which <b>Direction</b> is counted, as from a Tangent node. Around the "
+            "axis of an object, with Direction 0: an optical disc",
+        ),
+    },
+    "menus": {
+        "Metal": (
+            "Copper",
+            "Copper (Johnson and Christy 1972), Aluminium (Rakić 1995), Tungsten (Werner et al. "
+            "2009), Silicon (Green 2008), or your own by <b>Metal n</b> and <b>Metal k</b>",
+        ),
+        "Metal n": (
+            "0.27, 0.68, 1.3",
+            "Index of refraction of a custom metal in red, green and blue light (612, 549, "
+            "464&nbsp;nm). Gold: 0.2, 0.4, 1.4",
+        ),
+        "Metal k": (
+            "3.4, 2.62, 2.4",
+            "Extinction of a custom metal in red, green and blue light. Larger is more "
+            "mirror-like. Gold: 3.1, 2.4, 1.9",
+        ),
+        "Oxide": (
+            "Silicon Dioxide",
+            "Silicon dioxide (Malitson 1965), silicon nitride (Philipp 1973), both with "
+            "dispersion, or your own: then <b>Oxide IOR</b> counts",
+        ),
+        "Illuminant": (
+            "Equal Energy",
+            "Spectrum of the lamps that light the material. Equal energy and daylight give smooth "
+            "rainbows, a three-band fluorescent tube (F11) separate images of the tube in its own "
+            "colours, sodium one sharp image. A white surface stays white under all of them; the "
+            "colour of the lamp itself is set at the lamp",
+        ),
+    },
+    "effects": {
+        "Effects": (
+            "all on",
+            "<b>Grating</b>: interference between the wires, the separate bands; off: wires at "
+            "random distances. <b>Thin Film</b>: interference in the oxide. <b>Wire "
+            "Diffraction</b>: diffraction within a single wire",
+        ),
+    },
+}
 
 
 def page_text() -> str:
     """The whole page."""
-    color = _row("Color", "white", "Tint of everything that is reflected. White: the colours of "
-                                   "physics")
-    frame = [
-        _row("Normal", "–", "Direction of the surface; the geometry's own where nothing is linked"),
-        _row("Tangent", "–", "Direction from which Direction is counted; the object's X axis where "
-                             "nothing is linked"),
-    ]
+    others = {
+        place: "\n".join(_entry(name, *facts) for name, facts in entries.items())
+        for place, entries in _OTHERS.items()
+    }
     return string.Template(TEMPLATE.read_text()).substitute(
-        both="\n".join([color, _rows("BOTH"), *frame]),
-        physical=_rows("PHYSICAL"),
-        cs348b=_rows("CS348B"),
+        both="\n".join([others["first"], _floats("BOTH"), others["frame"]]),
+        physical="\n".join([_floats("PHYSICAL"), others["menus"]]),
+        cs348b="\n".join([_floats("CS348B"), others["effects"]]),
     )
 
 

@@ -328,17 +328,19 @@ ICW_DEVICE_LARGE Lanes largest_power(const PhysicalParams &p,
     return lanes_sqrt(lanes_max(1.0f - sine * sine, lanes(0.0f)));
   };
   const float order = axis.groups.order[group], reach = axis.groups.reach[group];
-  const Lanes middle = sine_of(order);
-  const Lanes first = reach > 0.0f ? sine_of(order - reach) : middle;
-  const Lanes last = reach > 0.0f ? sine_of(order + reach) : middle;
+  const Lanes middle = sine_of(order), cos_middle = cosine_of(middle);
+  Lanes nearest = middle, group_range = lanes(0.0f);
+  if (reach > 0.0f) {
+    const Lanes first = sine_of(order - reach), last = sine_of(order + reach);
+    const Lanes cos_first = cosine_of(first), cos_last = cosine_of(last);
+    nearest = lanes_min(first, last);
+    group_range = lanes_max(lanes_max(cos_first, cos_last) - cos_middle,
+                            cos_middle - lanes_min(cos_first, cos_last));
+  }
   const Lanes sigma = sigma_0 + p.variation * order * per_order;
   /* The part of a lobe that may be above the horizon, at least. */
-  const Lanes above = lanes_min(
-      lanes_max(1.0f + 0.5f * (1.0f - lanes_min(first, last)) / sigma, lanes(0.0f)), lanes(1.0f));
-  const Lanes cos_middle = cosine_of(middle);
-  const Lanes cos_first = cosine_of(first), cos_last = cosine_of(last);
-  const Lanes group_range = lanes_max(lanes_max(cos_first, cos_last) - cos_middle,
-                                      cos_middle - lanes_min(cos_first, cos_last));
+  const Lanes above = lanes_min(lanes_max(1.0f + 0.5f * (1.0f - nearest) / sigma, lanes(0.0f)),
+                                lanes(1.0f));
   const Lanes lobe_range = 0.5f * (cosine_of(lanes_max(middle - sigma, lanes(0.0f))) -
                                    cosine_of(middle + sigma));
   const Lanes contrast = levels_contrast(

@@ -248,6 +248,13 @@ ICW_DEVICE float row_sigma(const PhysicalParams &p,
   return sqrtf(lobe_variance(p, p.along, wavelength_nm, shift) + square(relative * shift));
 }
 
+/* Scale of a Cauchy density of v that far out is that of the orders beyond the limit: their power
+ * falls off as 1 / (2 pi^2 n^2) and is 1 / (pi^2 (limit + 1/2)) in all. */
+ICW_DEVICE float row_tail_scale(const float per_order)
+{
+  return 0.5f * pi * (float(order_limit) + 0.5f) * per_order;
+}
+
 /* Density of v in a row m != 0 of orders (m, n), light of this wavelength, known to the part
  * `relative`. */
 ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
@@ -270,8 +277,8 @@ ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
     sum += share * (logistic_density(v - shift, sigma) + logistic_density(v + shift, sigma));
     left -= 2.0f * share;
   }
-  /* Orders beyond the limit, spread as widely as they reach. */
-  return sum + larger(left, 0.0f) * logistic_density(v, 2.0f * float(order_limit) * per_order);
+  const float scale = row_tail_scale(per_order);
+  return sum + larger(left, 0.0f) * scale / (pi * (square(v) + square(scale)));
 }
 
 ICW_DEVICE float row_point(const PhysicalParams &p,
@@ -302,7 +309,8 @@ ICW_DEVICE float row_point(const PhysicalParams &p,
     left -= 2.0f * share;
     rest -= 2.0f * share;
   }
-  return logistic_point(left / larger(rest, 1e-12f), 2.0f * float(order_limit) * per_order);
+  const float part = clamped(left / larger(rest, 1e-12f), 1e-6f, 1.0f - 1e-6f);
+  return row_tail_scale(per_order) * tanf(pi * (part - 0.5f));
 }
 
 /* Wavelength that u is of in order m, and how well u tells it. */

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The add-on's operators in a real Blender without a window: what they make, and what they refuse."""
+"""The add-on's operators in a Blender without a window: what they make, and what they refuse."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import host
 import numpy as np
 import pixels
 
-sys.path[:0] = [str(host.REPOSITORY / "scripts" / "python"), str(host.REPOSITORY / "tests" / "python")]
+sys.path[:0] = [str(host.REPOSITORY / name) for name in ("scripts/python", "tests/python")]
 
 from import_support import TRACKS_DEF, TRACKS_LEF, box, write_layouts  # noqa: E402
 
@@ -45,10 +45,8 @@ metal = "copper"
 
 def lines(layer: str, period_nm: int, width_nm: int, side_nm: int) -> dict:
     """A cell TOP, a square full of wires along x."""
-    count = side_nm // period_nm
-    return {
-        "TOP": {layer: [box(0, i * period_nm, side_nm, i * period_nm + width_nm) for i in range(count)]}
-    }
+    starts = range(0, side_nm - period_nm, period_nm)
+    return {"TOP": {layer: [box(0, y, side_nm, y + width_nm) for y in starts]}}
 
 
 def write_chips(folder: Path) -> None:
@@ -100,6 +98,7 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
         "at cursor": step(DIE) | {"before": at_cursor},
         "edit mode": step(DIE, preset="dram") | {"before": in_edit_mode},
         "not turned": rendered("not turned", step(DIE, preset="dram", catch_light=False)),
+        "new material": step("object.ic_material_add") | {"before": "bpy.ops.mesh.ic_die_add()"},
         "too small": step(DIE, preset="eight-core", width_mm=0.1, height_mm=0.1),
         "wafer": rendered("wafer", step(WAFER, preset="eight-core"))
         | {"blend": str(folder / "wafer.blend")},
@@ -112,7 +111,7 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
         "layer map": chip("other.gds", "mine.toml"),
         "layer map by path": chip("other.gds", process="OWN", layer_map=str(folder / "mine.toml")),
         "layout": chip("preset.layout.toml"),
-        "wafer of a layout": chip("preset.layout.toml", kind="WAFER", diameter_mm="200"),
+        "wafer of a layout": chip("preset.layout.toml", kind="WAFER"),
         "wires": chip("chip.gds", kind="WIRES"),
         "wafer of a small chip": chip("chip.gds", kind="WAFER", diameter_mm="100"),
         "missing": chip("missing.gds"),
@@ -205,7 +204,7 @@ class AddOn(unittest.TestCase):
                 self.assertEqual(done["selected"], [done["name"]])
 
     def test_every_preset_shows_colours_in_the_default_scene(self) -> None:
-        """Neither black nor uniform, brighter than the grey world and of colours it does not have."""
+        """Neither black nor uniform: brighter than the grey world, of colours it does not have."""
         for name in PRESETS:
             with self.subTest(preset=name):
                 image = pixels.read(self.folder / f"die {name}.exr")
@@ -255,6 +254,9 @@ class AddOn(unittest.TestCase):
     def test_in_edit_mode_it_joins_the_mesh(self) -> None:
         done = self.made("edit mode")
         self.assertEqual((done["name"], done["mode"]), ("Plane", "EDIT"))
+
+    def test_a_new_material_from_the_attributes(self) -> None:
+        self.assertEqual(self.made("new material")["materials"], ["Chip.001", "Chip Ground"])
 
     def test_too_small(self) -> None:
         self.assert_refused("too small", "too small for its floorplan", "width_mm")

@@ -12,7 +12,7 @@ import host
 import numpy as np
 import pixels
 
-sys.path[:0] = [str(host.REPOSITORY / "scripts" / "python"), str(host.REPOSITORY / "tests" / "python")]
+sys.path[:0] = [str(host.REPOSITORY / name) for name in ("scripts/python", "tests/python")]
 
 from import_support import box, write_layouts  # noqa: E402
 
@@ -90,6 +90,9 @@ class AddOnWindow(unittest.TestCase):
 
     def test_import_through_the_file_browser(self) -> None:
         self.assertEqual(list(self.faces("imported")), ["chip"])
+        self.assertAlmostEqual(self.facts["imported"]["chip"][1], 2.0, places=3)
+        width, height = self.facts["options"]
+        self.assertTrue(width > 150 and height > 300, "no room for its options")
 
 
 if __name__ == "__main__":

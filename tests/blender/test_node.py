@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import math
 import unittest
 from pathlib import Path
@@ -185,9 +186,14 @@ class Facts(TestCase):
         """F1 opens a page about this node, which is part of the installation."""
         page = urlparse(self.facts["help"])
         self.assertEqual(page.scheme, "file", self.facts["help"])
-        text = Path(unquote(page.path)).read_text()
+        path = Path(unquote(page.path))
+        text = path.read_text()
         for name, _, _ in (*INPUTS["CS348B"], *INPUTS["PHYSICAL"]):
             self.assertIn(name, text)
+        pictures = re.findall(r'src="([^"]+)"', text)
+        self.assertGreater(len(pictures), 3 * len(INPUTS["PHYSICAL"]))
+        for picture in pictures:
+            self.assertTrue((path.parent / picture).is_file(), picture)
 
 
 class Files(TestCase):

@@ -172,13 +172,14 @@ class Pictures(unittest.TestCase):
 
     def test_the_committed_pictures_are_these(self) -> None:
         # Three pixels of a committed picture are one here. What the wider pixel filter does to
-        # lines of one pixel comes to 0.01 to 0.03; a die of another seed to 0.08.
+        # lines of one pixel comes to 0.01 to 0.03, with the noise of wide lamps to 0.045; a die of
+        # another seed to 0.08.
         for name, image in self.shown.items():
             with self.subTest(name):
                 committed = oiio.ImageBuf(str(ROOT / "blend_assets" / "pictures" / f"{name}.png"))
                 roi = oiio.ROI(0, WIDTH, 0, height(name), 0, 1, 0, 3)
                 small = oiio.ImageBufAlgo.resize(committed, "box", roi=roi).get_pixels(oiio.FLOAT)
-                self.assertLess(np.abs(small - image).mean(), 0.05)
+                self.assertLess(np.abs(small - image).mean(), 0.06)
 
     def test_rendering_again_gives_the_same_pixels(self) -> None:
         np.testing.assert_array_equal(self.linear["full"], self.again)

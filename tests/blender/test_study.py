@@ -167,6 +167,25 @@ class RenderTest(StudyCase):
         facts = json.loads((self.folder / "out/jobs/c-standard/job.json").read_text())
         self.assertEqual(facts["view_transform"], "Standard")
 
+    def test_light_that_is_taken_over_is_the_light_that_would_be_rendered(self) -> None:
+        """Two views swap their names, so that each job's light lies in the other's folder."""
+        case = '[[axis.case]]\nname = "{}"\nscene = {{ view.gamma = {}, render.seed = {} }}\n'
+        head = HEAD + '[[axis]]\nname = "c"\n'
+        first = self.study(head + case.format("a", 1, 1) + case.format("b", 1, 2))
+        self.render(first, "out", *SMALL)
+        swapped = self.study(head + case.format("a", 2, 2) + case.format("b", 2, 1))
+        self.render(swapped, "out", *SMALL)
+        self.render(swapped, "alone", *SMALL, "--isolate")
+        for job in ("c-a", "c-b"):
+            for name in ("image.exr", "image.png"):
+                taken, rendered = (
+                    self.folder / f"{folder}/jobs/{job}/{name}" for folder in ("out", "alone")
+                )
+                np.testing.assert_array_equal(read(taken), read(rendered))
+            self.assertEqual(metadata(taken.with_suffix(".exr"))["icwafer:job"], job)
+        facts = json.loads((self.folder / "out/jobs/c-a/job.json").read_text())
+        self.assertFalse(facts["rendered"])
+
     def test_what_this_blender_has_not_is_refused(self) -> None:
         for line, words in (
             ('view.transform = "Filmc"', "view.transform is not possible here: "),

@@ -18,9 +18,14 @@ DRIVER, PROGRAM = Path("/usr/bin/chromedriver"), Path("/usr/bin/chromium")
 
 
 class Browser:
-    """Opens one page of a file; `width` below 500 makes it a telephone."""
+    """Opens one page of a file; `width` below 500 makes it a telephone.
 
-    def __init__(self, page: Path, width: int, height: int, scheme: str = "dark") -> None:
+    draws: whether the page says when its scripts have drawn.
+    """
+
+    def __init__(
+        self, page: Path, width: int, height: int, scheme: str = "dark", draws: bool = True
+    ) -> None:
         if not DRIVER.is_file() or not PROGRAM.is_file():
             raise AssertionError("no Chromium: 'apt-get install chromium chromium-driver'")
         options = webdriver.ChromeOptions()
@@ -38,13 +43,14 @@ class Browser:
             "Emulation.setEmulatedMedia",
             {"features": [{"name": "prefers-color-scheme", "value": scheme}]},
         )
-        self.page = page.as_uri()
+        self.page, self.draws = page.as_uri(), draws
         self.open()
 
     def open(self) -> None:
         """Loads the page anew and waits until it has drawn."""
         self.driver.get(self.page)
-        self.wait(lambda: self.js("return document.documentElement.dataset.drawn"))
+        if self.draws:
+            self.wait(lambda: self.js("return document.documentElement.dataset.drawn"))
 
     def close(self) -> None:
         self.driver.quit()

@@ -44,6 +44,7 @@ def render(request: dict, number: int) -> dict:
         return {"error": f"{error.filename}: {error.strerror}", "fatal": full}
     return {
         "seconds": 0.2,
+        "rendered": request["light"] is None,
         "samples": scene["render.samples"],
         "seed": scene["render.seed"],
         "size": scene["render.size"],

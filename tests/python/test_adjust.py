@@ -153,7 +153,8 @@ class Wafers(unittest.TestCase):
 
         def spread_of(drift: float) -> float:
             change = dataclasses.replace(USUAL, drift=drift)
-            return float(np.ptp(place_dies(adjusted_wafer(dies, drifting_wafer(), change)).oxide_scale))
+            places = place_dies(adjusted_wafer(dies, drifting_wafer(), change))
+            return float(np.ptp(places.oxide_scale))
 
         self.assertEqual(spread_of(0.0), 0.0)
         self.assertAlmostEqual(spread_of(2.0) / spread_of(1.0), 2.0, delta=0.01)

@@ -77,6 +77,41 @@ class Status(CompareCase):
         self.assertIn("of it noise", self.compare(0, a, b, "--second", a2, b2))
         self.assertIn("different beyond noise", self.compare(1, a, other, "--noise"))
 
+    def merged(self, name: str, truth: np.ndarray, count: int, seed: int) -> str:
+        random = np.random.default_rng(seed)
+        renders = [
+            self.image(f"{name}{i}.exr", truth + random.normal(0, 0.1, RAMP.shape))
+            for i in range(count)
+        ]
+        path = str(self.folder / f"{name}.exr")
+        status, _, err = self.icwafer("merge", *renders, "-o", path)
+        self.assertEqual(status, 0, err)
+        return path
+
+    def test_noise_of_merged_renders(self) -> None:
+        """Of unequal numbers of samples; the variance is a layer of the merged files."""
+        a, b = self.merged("a", RAMP, 4, seed=5), self.merged("b", RAMP, 16, seed=6)
+        other = self.merged("c", RAMP * 1.1, 16, seed=7)
+        self.assertIn("nothing beyond it", self.compare(0, a, b, "--variance", a, b))
+        out = self.result(0, a, b, "--variance", a, b)
+        expected = 0.1 * np.sqrt(1 / 4 + 1 / 16)
+        self.assertAlmostEqual(out["noise"]["rms_noise"], expected, delta=0.1 * expected)
+        self.assertIn("different beyond", self.compare(1, a, other, "--variance", a, other))
+
+    def test_variances_that_are_none(self) -> None:
+        a, b = self.image("a.exr", RAMP), self.image("b.exr", RAMP)
+        negative = self.image("n.exr", -RAMP - 1)
+        small, encoded = self.image("s.exr", RAMP[:4]), self.image("e.png", RAMP)
+        for variance, words in (
+            (negative, "negative values"), (small, "another size"), (encoded, "scene-linear"),
+        ):  # fmt: skip
+            with self.subTest(words):
+                self.expect_error(["compare", a, b, "--variance", a, variance], 2, words)
+        self.expect_error(
+            ["compare", a, b, "--variance", a, b, "--second", a, b], 2, "give one of them"
+        )
+        self.expect_error(["merge", a, "-o", a], 2, "two or more")
+
 
 class OddImages(CompareCase):
     def test_sizes(self) -> None:
@@ -119,7 +154,7 @@ class OddImages(CompareCase):
         plain, half = self.image("b.exr", RAMP), self.image("c.exr", 0.5 * RAMP)
         self.assertIn("layer 'View.Combined' of 2", self.compare(0, both, plain))
         self.expect_error(
-            ["compare", both, half, "--layer", "View.Difuse"], 2, "nearest is 'View.Diffuse'"
+            ["compare", both, half, "--layer", "View.Difuse"], 2, "did you mean 'View.Diffuse'"
         )
         layers = [images.read(Path(both), layer).pixels for layer in ("View.Diffuse", None)]
         np.testing.assert_allclose(layers[0], 0.5 * layers[1], atol=1e-6)
@@ -162,7 +197,7 @@ class Colour(CompareCase):
         out = self.compare(0, a, a, "--ocio", config)
         self.assertIn(f"Working on Plain ({config})", out)
         self.expect_error(
-            ["compare", a, a, "--ocio", config, "--view", "Worknig"], 2, "nearest is 'Working'"
+            ["compare", a, a, "--ocio", config, "--view", "Worknig"], 2, "did you mean 'Working'"
         )
         self.expect_error(
             ["compare", a, a, "--ocio", a], 2, "a.exr: not an OpenColorIO configuration"

@@ -48,6 +48,42 @@ class Generated(unittest.TestCase):
             self.assertLessEqual(i.initial, i.maximum, i.name)
             self.assertGreater(len(i.tooltip), 40, i.name)
 
+    def test_manual_shows_every_input(self) -> None:
+        """Three values or more of each, in pictures of just these values, and no others."""
+        sys.path.insert(0, str(ROOT / "plugin" / "manual"))
+        import make_manual
+        import OpenImageIO as oiio
+        import sweeps
+
+        wanted = {i.name for i in make_manual.float_inputs()}
+        wanted |= {"Color", "Normal", "Tangent", "Metal n", "Metal k"}
+        wanted |= {"Metal", "Oxide", "Illuminant", "Effects"}
+        self.assertEqual(set(sweeps.SWEEPS), wanted)
+        files, page = set(), make_manual.page_text()
+        for sweep in sweeps.SWEEPS.values():
+            self.assertGreaterEqual(len(sweep.panels), 3, sweep.name)
+            for panel in sweep.panels:
+                file = sweep.file(panel)
+                with self.subTest(file.name):
+                    spec = oiio.ImageBuf(str(file)).spec()
+                    noted = spec.get_string_attribute("ImageDescription")
+                    self.assertEqual(noted, sweep.description(panel), "render it anew")
+                    self.assertIn(f'src="pictures/{file.name}"', page)
+                files.add(file)
+        self.assertEqual(set(sweeps.PICTURES.iterdir()), files)
+        self.assertLess(sum(file.stat().st_size for file in files), 600_000)
+
+    def test_manual_shows_values_that_an_input_takes(self) -> None:
+        sys.path.insert(0, str(ROOT / "plugin" / "manual"))
+        import make_manual
+        import sweeps
+
+        for i in make_manual.float_inputs():
+            values = [panel.values[i.name] for panel in sweeps.SWEEPS[i.name].panels]
+            self.assertGreaterEqual(len(set(values)), 3, i.name)
+            for value in values:
+                self.assertTrue(i.minimum <= value <= i.maximum, f"{i.name} {value}")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -207,6 +207,24 @@ class ApplyTest(HostEditsTest):
         self.assertEqual((self.tree / TYPES).stat().st_mode & 0o777, 0o750)
 
 
+class OtherFilesTest(HostEditsTest):
+    def test_files_of_a_folder_by_their_ending(self) -> None:
+        self.write_edits(
+            EDITS + '[[add]]\nfrom = "shaders"\nto = "docs"\nfiles = "*.txt"\n'
+        )
+        self.apply()
+        self.assertEqual(
+            [path.relative_to(self.tree).as_posix() for path in self.tree.rglob("docs/**/*.*")],
+            ["docs/icwafer/notes.txt"],
+        )
+
+    def test_a_folder_without_them(self) -> None:
+        self.write_edits(
+            EDITS + '[[add]]\nfrom = "shaders"\nto = "docs"\nfiles = "*.jpg"\n'
+        )
+        self.expect_refusal("'shaders' is neither a file nor a folder with *.jpg")
+
+
 class RefusalTest(HostEditsTest):
     def test_anchor_not_found(self) -> None:
         self.edit("#define NODE_Z 9")

@@ -39,6 +39,12 @@ class Renders:
         return truth * (grain + fireflies * self.random.pareto(1.5, grain.shape))
 
 
+    def with_variance(self, truth: np.ndarray, samples: int) -> tuple[np.ndarray, np.ndarray]:
+        """Mean of some renders, and its variance as they tell it."""
+        every = np.stack(self.of(truth, samples))
+        return every.mean(axis=0), every.var(axis=0, ddof=1) / samples
+
+
 class NoiseTest(unittest.TestCase):
     def share_called_different(
         self, other: np.ndarray, count: int, pairs: int, strength: float = 0.15
@@ -66,6 +72,41 @@ class NoiseTest(unittest.TestCase):
         second = first[:, ::-1]
         renders = Renders(3)
         self.assertTrue(noise.compare(renders.of(first, 2), renders.of(second, 2)).different)
+
+    def test_with_the_variance_samples_may_differ(self) -> None:
+        """At level 0.01 at most 1 %, of 200 pairs: four times the samples, with fireflies."""
+        renders, wrong = Renders(12), 0
+        for _ in range(200):
+            (a, va), (b, vb) = (renders.with_variance(bands(), n) for n in (4, 16))
+            wrong += noise.compare([a], [b], variances=(va, vb)).different
+        self.assertLessEqual(wrong, 2)
+
+    def test_with_the_variance_one_render_finds_what_else_needs_two(self) -> None:
+        stripes = 1.0 + 0.3 * (np.arange(WIDTH) % 2 * 2 - 1)[None, :, None]
+        first = 0.5 * stripes * np.ones((HEIGHT, 1, 3))
+        renders = Renders(13)
+        (a, va), (b, vb) = (renders.with_variance(t, 8) for t in (first, first[:, ::-1]))
+        self.assertFalse(noise.compare([a], [b]).different)
+        self.assertTrue(noise.compare([a], [b], variances=(va, vb)).different)
+        for _ in range(20):
+            (a, va), (b, vb) = (renders.with_variance(t, 8) for t in (bands(), bands(1.01)))
+            self.assertTrue(noise.compare([a], [b], variances=(va, vb)).different)
+
+    def test_with_the_variance_how_much_is_noise(self) -> None:
+        random = np.random.default_rng(14)
+        truth = np.full((200, 200, 3), 0.5)
+        a, b = (truth + step + random.normal(0, 0.1, truth.shape) for step in (0.0, 0.05))
+        known = np.full(truth.shape, 0.01)
+        found = noise.compare([a], [b], variances=(known, known))
+        self.assertAlmostEqual(found.rms_noise, 0.1 * np.sqrt(2))
+        self.assertAlmostEqual(found.rms_beyond, 0.05, delta=0.002)
+
+    def test_without_noise_only_rounding_is_forgiven(self) -> None:
+        none = np.zeros_like(bands())
+        halves = bands().astype(np.float16).astype(np.float64)
+        self.assertFalse(noise.compare([bands()], [halves], variances=(none, none)).different)
+        other = bands() * 1.001
+        self.assertTrue(noise.compare([bands()], [other], variances=(none, none)).different)
 
     def test_where_it_differs(self) -> None:
         other = bands()
@@ -114,6 +155,9 @@ class NoiseTest(unittest.TestCase):
     def test_the_number_of_renders(self) -> None:
         with self.assertRaises(ValueError):
             noise.compare([bands()], [bands(), bands()])
+        two = [bands(), bands()]
+        with self.assertRaises(ValueError):
+            noise.compare(two, two, variances=(bands(), bands()))
 
 
 if __name__ == "__main__":

@@ -140,10 +140,15 @@ class Command(CompareCase):
         page = self.folder / "page.html"
         self.compared(0, render(), "--html", str(page))
         text = page.read_text()
-        figure = text[text.index('<svg class="chart"') : text.index("</svg>")]
+        start = text.index('<svg class="chart"')
+        figure = text[start : text.index("</svg>", start)]
         ElementTree.fromstring(figure + "</svg>")
         self.assertIn(">photo</text>", figure)
         self.assertGreaterEqual(figure.count('class="grid"'), 4)
+        section = text[text.index('<div class="wholes">') : text.index('<svg class="chart"')]
+        self.assertEqual(section.count("<polygon"), 2)
+        self.assertIn("° apart on average", section)
+        self.assertIn("without perspective", text)
         for name in ("photo", "render"):
             self.assertIn(f'data-name="pixels:{name}"', text)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The scene after the photograph "Si wafer" (Enrique Jimenez): its geometry against measurements."""
+"""The scene after the photograph "Si wafer" (Enrique Jimenez): its geometry as measured."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def pitch_mm() -> np.ndarray:
 
 
 def cell_mm(cells: np.ndarray) -> np.ndarray:
-    """Where corners of cells (n, 2) are on the wafer: the middle of cell (14, -9) is its centre."""
+    """Where corners of cells (n, 2) are: the middle of cell (14, -9) is the wafer's centre."""
     return (cells - (14.5, -8.5)) * (1, -1) * pitch_mm()
 
 

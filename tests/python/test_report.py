@@ -13,7 +13,7 @@ from unittest import mock
 import numpy as np
 import OpenImageIO as oiio
 from compare_support import CompareCase, write_image
-from report_fixture import REFERENCE, SIZE, picture, write_study
+from report_fixture import REFERENCE, SIZE, add_job, picture, write_study
 
 from icwafer.compare import colour, flip, metrics
 from icwafer.report import encode, study
@@ -212,6 +212,23 @@ class Write(CompareCase):
                 if (spacing, lobe) == (1100, 0.03):
                     shown = np.clip(middle, 0, 1).mean(axis=(0, 1))
                 np.testing.assert_allclose(sheet[y, x], shown, atol=0.1)
+
+    def test_a_long_axis_is_thinned_on_the_sheet(self) -> None:
+        """Of 101 values 24, the first and the last among them: the sheet stays a picture."""
+        folder = self.folder / "long"
+        values = list(range(101))
+        for value in values:
+            add_job(folder, f"d{value}", {"settings": {"d": value}})
+            grey = np.full((2, 4, 3), value / 50)
+            write_image(folder / "jobs" / f"d{value}" / "image.exr", grey)
+        axes = [{"name": "d", "values": values}]
+        (folder / "study.json").write_text(json.dumps({"name": "x", "axes": axes}))
+        write(study.load(folder), self.folder / "p.html", ppd=67.0, hdr=False, processes=1)
+        sheet = oiio.ImageBuf(str(self.folder / "p-sheet.png")).get_pixels(oiio.FLOAT)
+        self.assertEqual(sheet.shape[:2], (92 + 160 + 12, 12 + 24 * 326 + 6))
+        row = sheet[-86, :, 0]
+        self.assertLess(row[12 + 160], 0.05)
+        self.assertGreater(row[-6 - 160], 0.95)
 
     def test_compare_writes_a_page(self) -> None:
         paths = [

@@ -16,6 +16,8 @@ import stand_in_blender
 from study_support import HEAD, STAND_IN, StudyCase, axis, images, names
 from support import REPOSITORY, write
 
+from icwafer.study.order import Order
+
 SEEDS = axis("seed", "render.seed", [1, 2, 3])
 
 
@@ -53,6 +55,15 @@ class ResultsTest(StudyCase):
         )
         self.assertEqual(
             images(output), {k: v for k, v in before.items() if not k.startswith("jobs/seed-1")}
+        )
+
+    def test_commands_name_what_is_in_the_repository_from_there(self) -> None:
+        study = REPOSITORY / "scripts" / "studies" / "metals.toml"
+        order = Order(study, self.folder, settings=("render.samples=1",))
+        self.assertEqual(
+            " ".join(order.command("a")),
+            f"scripts/icwafer render scripts/studies/metals.toml -o {self.folder} "
+            "--set render.samples=1 --only a",
         )
 
     def test_only_what_is_missing_or_changed(self) -> None:
@@ -113,6 +124,19 @@ class ResultsTest(StudyCase):
         self.render(study, output)
         panorama.write_text("two")
         self.assertIn("3 rendered, 0 were there", self.render(study, output))
+
+    def test_jobs_that_differ_in_their_view_share_the_light(self) -> None:
+        output = self.folder / "out"
+        gammas = axis("gamma", "view.gamma", [1, 2])
+        self.render(self.study(SEEDS, gammas), output, "--jobs", "2")
+        facts = self.facts(output)
+        rendered = [job["settings"]["seed"] for job in facts.values() if job["rendered"]]
+        self.assertEqual(sorted(rendered), [1, 2, 3])
+        # What is there serves the next run, too: another view, and one more.
+        study = self.study("view.transform = 'Raw'\n", SEEDS, axis("gamma", "view.gamma", [1, 3]))
+        self.assertIn("about", self.render(study, output, "--dry-run"))
+        self.assertIn("6 rendered", self.render(study, output))
+        self.assertFalse(any(job["rendered"] for job in self.facts(output).values()))
 
     def test_dry_run_renders_nothing(self) -> None:
         output = self.folder / "out"

@@ -83,11 +83,6 @@ class LinesTest(unittest.TestCase):
     def test_names_of_places(self) -> None:
         self.assertEqual(toml_lines.key_name(("axis", 1, "values")), "axis[2].values")
 
-    def test_nearest_name(self) -> None:
-        known = ["Wire Spacing", "Wire Width"]
-        self.assertEqual(toml_lines.nearest("wire spacng", known), "did you mean 'Wire Spacing'?")
-        self.assertIn("choose from Wire Spacing, Wire Width", toml_lines.nearest("x", known))
-
 
 class ReadTest(CommandCase):
     def test_an_error_names_file_line_and_key(self) -> None:

@@ -20,8 +20,10 @@ from typing import NoReturn
 from icwafer import build, doctor, layout_command, packages, paths, render, source
 from icwafer.assets import command as assets_command
 from icwafer.compare import command as compare_command
+from icwafer.compare import merge as merge_command
 from icwafer.errors import IcwaferError
 from icwafer.portrait import command as portrait_command
+from icwafer.report import animate as animate_command
 from icwafer.report import command as report_command
 from icwafer.study import command as study_command
 
@@ -142,7 +144,9 @@ def _parser() -> _Parser:
     )
     source_command.set_defaults(run=_source)
     compare_command.register(add)
+    merge_command.register(add)
     report_command.register(add)
+    animate_command.register(add)
     return parser
 
 

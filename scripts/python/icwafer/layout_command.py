@@ -57,7 +57,7 @@ def _new(arguments: argparse.Namespace) -> int:
     from icwafer.chips.document import ENDING, write_layout
     from icwafer.chips.presets import PRESETS
     from icwafer.chips.settings import changed
-    from icwafer.chips.suggest import unknown
+    from icwafer.suggest import unknown
 
     if arguments.preset == "list":
         print("\n".join(PRESETS))

@@ -25,6 +25,7 @@ PURPOSES: dict[str, tuple[str, ...]] = {
         "fonts-dejavu-core",
         "python3-numpy",
         "python3-openimageio",
+        "python3-pil",
         "python3-pyopencolorio",
     ),
     "core": (

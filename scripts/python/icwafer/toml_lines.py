@@ -7,10 +7,8 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 import tomllib
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -78,16 +76,6 @@ def key_name(place: FieldPath) -> str:
         else:
             name += ("." if name else "") + part
     return name
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """The end of a message about an unknown name: the known name that is nearest, or all."""
-    names = list(known)
-    by_lower = {candidate.lower(): candidate for candidate in names}
-    close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
-    if close:
-        return f"did you mean {by_lower[close[0]]!r}?"
-    return f"choose from {', '.join(names)}" if names else "there is none to choose from"
 
 
 def line_of(text: str, place: FieldPath) -> int:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Use the add-on's operators without a window, each time in a new scene, and report what they made.
+"""Use the add-on's operators without a window, each time in a new scene; report what they make.
 
 Parameters: `steps`, each with `operator` ("mesh.ic_die_add"), `options` for it, and if wanted
-`before`, statements that prepare the scene; `exr`, to where Blender's default scene is rendered with
-the new thing in place of its cube; and `blend`, to where the file is saved.
+`before`, statements that prepare the scene; `exr`, to where Blender's default scene is rendered
+with the new thing in place of its cube; and `blend`, to where the file is saved.
 """
 
 from __future__ import annotations

@@ -121,9 +121,14 @@ def choose_file() -> None:
     area = next(area for area in window.screen.areas if area.type == "FILE_BROWSER")
     area.spaces.active.params.directory = parameters()["chip"][0].encode()
     area.spaces.active.params.filename = parameters()["chip"][1]
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window, area=area, region=region):
+    region = {region.type: region for region in area.regions}
+    facts["options"] = [region["TOOL_PROPS"].width, region["TOOL_PROPS"].height]
+    with bpy.context.temp_override(window=window, area=area, region=region["WINDOW"]):
         bpy.ops.file.execute()
+
+
+def wait() -> None:
+    """While regions of a new window slide in."""
 
 
 def tell(name: str) -> Step:
@@ -165,6 +170,8 @@ in_window(
     undo,
     lambda: search("chip layout"),
     lambda: press("RET"),
+    wait,
+    wait,
     lambda: shoot("import"),
     choose_file,
     tell("imported"),

@@ -18,9 +18,9 @@ from icwafer.chips.outline import MARKS
 from icwafer.chips.placement import RETICLE_MM, reticle_field, test_field_dies_mm
 from icwafer.chips.rules import Rule, rule_of
 from icwafer.chips.spread import Clustered, Spread, Uniform
-from icwafer.chips.suggest import unknown
 from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
+from icwafer.suggest import unknown
 from icwafer.toml_lines import FieldPath, key_name
 
 

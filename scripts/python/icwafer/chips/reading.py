@@ -15,7 +15,7 @@ from icwafer.chips.check import Problem, group_problems
 from icwafer.chips.model import BlockTable, DieSpec, Group, Kind, Layout, kind_names
 from icwafer.chips.rules import rule_of
 from icwafer.chips.spread import Clustered, Normal, Spread, Uniform
-from icwafer.chips.suggest import unknown
+from icwafer.suggest import unknown
 from icwafer.toml_lines import FieldPath
 
 

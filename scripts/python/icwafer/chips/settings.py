@@ -18,8 +18,8 @@ from icwafer.chips.check import problems
 from icwafer.chips.document import layout_text
 from icwafer.chips.model import DieSpec, Layout
 from icwafer.chips.reading import Unreadable, layout_of
-from icwafer.chips.suggest import unknown
 from icwafer.errors import IcwaferError
+from icwafer.suggest import unknown
 from icwafer.toml_lines import key_name
 
 _STEP = re.compile(r"(\w+)(?:\[([^\]]+)\])?")

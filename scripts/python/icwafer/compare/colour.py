@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ import PyOpenColorIO as ocio
 from icwafer import paths
 from icwafer.compare import srgb
 from icwafer.errors import InputError
+from icwafer.suggest import unknown
 
 #: Configurations to look for: the built Blender's, then that of Debian's package.
 CONFIGURATIONS = (
@@ -134,9 +134,7 @@ def _known(kind: str, name: str | None, default: str, names: list[str]) -> str:
     if name is None:
         return default
     if name not in names:
-        near = difflib.get_close_matches(name, names, 1, 0.0)
-        nearest = f", nearest is '{near[0]}'" if near else ""
-        raise InputError(f"no {kind} '{name}'{nearest}; choose from {', '.join(names)}")
+        raise InputError(unknown(kind, name, names))
     return name
 
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 _EPILOG = """\
 exit status:
-  0  equal: within all thresholds and, with --noise or --second, not different beyond the noise;
-     with none of these, equal in every pixel
+  0  equal: within all thresholds and, with --noise, --second or --variance, not different beyond
+     the noise; with none of these, equal in every pixel
   1  different; the reasons are printed, one a line, after "different:"
   2  bad input, one line on stderr
 Pixels that are NaN or infinite always make a difference. EXR and Radiance files hold scene-linear
@@ -60,6 +60,17 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         metavar=("A2", "B2"),
         help="renders of the same two scenes with other seeds: makes --noise sharper and measures "
         "the noise",
+    )
+    parser.add_argument(
+        "--variance",
+        type=Path,
+        nargs=2,
+        metavar=("VA", "VB"),
+        help="EXRs of the variance of each pixel's mean in A and in B, such as icwafer merge "
+        "writes: --noise with one render each, of any numbers of samples",
+    )
+    parser.add_argument(
+        "--variance-layer", metavar="NAME", help="of VA and VB (Variance, if they have it)"
     )
     parser.add_argument(
         "--level", type=float, default=0.01, metavar="P", help="of false alarms of --noise (0.01)"
@@ -140,6 +151,12 @@ def _images(arguments: argparse.Namespace) -> int:
         images.read(path, arguments.layer)
         for path in (*arguments.images, *(arguments.second or ()))
     )
+    if arguments.second and arguments.variance:
+        raise InputError("--second and --variance both say what the noise is; give one of them")
+    variances = tuple(
+        images.read(path, arguments.variance_layer or images.layer_if_there(path, "Variance"))
+        for path in arguments.variance or ()
+    )
     if arguments.html and a.size != b.size:
         raise InputError("--html needs images of one size; render both at one size")
     found = comparison.compare(
@@ -150,8 +167,9 @@ def _images(arguments: argparse.Namespace) -> int:
         with_flip=arguments.flip or "flip" in thresholds or "hdr-flip" in thresholds,
         fit=arguments.fit,
         second=tuple(second) or None,
-        with_noise=arguments.noise or bool(second),
+        with_noise=arguments.noise or bool(second or variances),
         level=arguments.level,
+        variances=variances or None,
     )
     failures = found.failures(thresholds)
     _print(found, failures)
@@ -230,7 +248,8 @@ def _photo(arguments: argparse.Namespace) -> int:
         title = f"{arguments.photo.name} and {arguments.images[0].name}"
         names = ("photo", "render")
         with photo.as_files(found) as files:
-            _write_page(arguments, files, names, title, photo_figure.svg(found.hues, names))
+            figure = photo_figure.section(found, names)
+            _write_page(arguments, files, names, title, figure, photo_figure.INTRODUCTION)
     return 1 if failures else 0
 
 
@@ -247,12 +266,13 @@ def _write_page(
     names: tuple[str, str],
     title: str,
     figure: str = "",
+    description: str = "",
 ) -> None:
     from icwafer.report import page
     from icwafer.report.study import Job, Study
 
     jobs = tuple(Job(name, {}, image=path) for name, path in zip(names, files))
-    study = Study(title, "", (), names[0], "", {}, jobs)
+    study = Study(title, description, (), names[0], "", {}, jobs)
     for path in page.write(
         study,
         arguments.html,

@@ -85,12 +85,14 @@ def compare(
     second: tuple[Image, Image] | None = None,
     with_noise: bool = False,
     level: float = 0.01,
+    variances: tuple[Image, Image] | None = None,
 ) -> Comparison:
     """Compares two images; A is the reference.
 
     Scene-linear images are compared by their values, others, and one of each kind, as a screen
     shows them; what the eye judges (FLIP, Yee) always is. with_noise: tests whether the difference
-    is more than noise, best with `second`, renders of the same scenes with other seeds.
+    is more than noise, best with `second`, renders of the same scenes with other seeds, or with
+    `variances`, images of the variance of each pixel's mean.
     """
     a, b = images.same_size(a, b, fit)
     renders = [a, b, *(second or ())]
@@ -122,7 +124,10 @@ def compare(
         if linear and with_hdr:
             hdr_flip = flip.hdr(*(view.to_rec709(image) for image in pixels[:2]), ppd)
             found["hdr-flip"] = float(hdr_flip.map.mean())
-    tested = noise.compare(pixels[::2], pixels[1::2], level) if with_noise else None
+    tested = None
+    if with_noise:
+        known = variances and _known(variances, a, linear, bad)
+        tested = noise.compare(pixels[::2], pixels[1::2], level, known)
     return Comparison(
         a=a,
         b=b,
@@ -135,6 +140,25 @@ def compare(
         hdr_flip=hdr_flip,
         noise=tested,
     )
+
+
+def _known(
+    variances: tuple[Image, Image], render: Image, linear: bool, bad: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Pixels of images of the variance. Raises InputError where they are none of these renders."""
+    for image in variances:
+        if not (linear and image.linear):
+            raise InputError(f"{image.path}: variances are of scene-linear values; give EXRs")
+        if image.size != render.size:
+            raise InputError(
+                f"{image.path} has another size than {render.path}; render them alike"
+            )
+        if image.pixels.min() < 0.0:
+            raise InputError(f"{image.path}: has negative values, which no variance is")
+    first, second = (
+        np.where((bad | image.bad)[..., None], 0.0, image.pixels) for image in variances
+    )
+    return first, second
 
 
 def as_json(comparison: Comparison, failures: Sequence[str]) -> dict[str, object]:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import numpy as np
 import OpenImageIO as oiio
 
 from icwafer.errors import InputError
+from icwafer.suggest import unknown
 
 #: Formats whose values are scene-linear; all others are as a screen shows them.
 LINEAR_FORMATS = ("openexr", "hdr")
@@ -63,6 +63,16 @@ def read(path: Path, layer: str | None = None) -> Image:
     pixels = np.atleast_3d(pixels)[..., [channel - min(channels) for channel in channels]]
     bad = ~np.isfinite(pixels).all(axis=-1)
     return Image(path, np.where(bad[..., None], np.float32(0), pixels), linear, bad, notes)
+
+
+def layer_if_there(path: Path, layer: str) -> str | None:
+    """The layer's name if a file has it, else None."""
+    file = oiio.ImageInput.open(str(path)) if path.is_file() else None
+    if file is None:
+        return None
+    found = _channels_by_layer(file)
+    file.close()
+    return layer if layer in found else None
 
 
 def same_size(first: Image, second: Image, fit: bool) -> tuple[Image, Image]:
@@ -151,9 +161,7 @@ def _choose(
     if layer is None:
         layer = next(iter(usable))
     elif layer not in usable:
-        near = difflib.get_close_matches(layer, usable, 1, 0.0)[0]
-        named = ", ".join(repr(name) for name in usable)
-        raise InputError(f"{path}: no layer '{layer}', nearest is '{near}'; it has {named}")
+        raise InputError(f"{path}: {unknown('layer', layer, usable)}")
     part, channels = usable[layer]
     notes = [f"{path.name}: layer '{layer}' of {len(usable)}."] if len(usable) > 1 else []
     if layer in grey:

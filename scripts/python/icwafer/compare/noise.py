@@ -18,6 +18,11 @@ variables", Bernoulli 21(2), theorem 1.1). Two kinds of difference are looked fo
 - spread: x = |A - B| - |noise|, where the noise is what two renders of the *same* scene differ by.
   A tile changed inside, up here and down there. It needs two renders of each.
 
+Where the variance of each pixel is known, one render of each is enough for both kinds, and they
+may have unequal samples: then x = A - B is divided by the root of the summed variances V, whose sums
+over a tile of 64 pixels or more are close to normal, and the spread is x = (A - B)^2 - V, skewed
+upwards, which makes its self-normalised sum fall short of the bound.
+
 With two renders of each, A stands for the mean of its two, and the noise is (A1 - A2 + B1 - B2)/2
 and (A1 - A2 - B1 + B2)/2: of the same variance as (A1 + A2 - B1 - B2)/2.
 
@@ -40,6 +45,7 @@ import numpy as np
 _AXES = np.array([[1, 1, 1], [1, 0, -1], [-1, 2, -1]]) / np.sqrt([[3], [2], [6]])
 _RADEMACHER = 3.18
 _SMALLEST_TILE = 8
+_HALF_FLOAT = 2.0**-11
 
 
 @dataclass(frozen=True)
@@ -65,29 +71,47 @@ class NoiseTest:
     rms_beyond: float | None
 
 
-def compare(a: Sequence[np.ndarray], b: Sequence[np.ndarray], level: float = 0.01) -> NoiseTest:
+@dataclass(frozen=True)
+class _Statistic:
+    """x is summed over tiles, divided by the root of the sum of `power`; both height x width x 3.
+
+    two_sided: whether a negative sum counts as well.
+    """
+
+    x: np.ndarray
+    power: np.ndarray
+    two_sided: bool
+
+    def log_p(self, size: int) -> np.ndarray:
+        """Of every tile of a size and every axis."""
+        t = _ratio(_tile_sums(self.x, size), np.sqrt(_tile_sums(self.power, size)))
+        return _log_p(np.abs(t)) + math.log(2) if self.two_sided else _log_p(t)
+
+
+def compare(
+    a: Sequence[np.ndarray],
+    b: Sequence[np.ndarray],
+    level: float = 0.01,
+    variances: tuple[np.ndarray, np.ndarray] | None = None,
+) -> NoiseTest:
     """Tests one or two renders of each scene, height x width x 3, linear or encoded.
 
     Rejects two renders of the same scene with at most the probability `level`. The renders of one
     scene must have different seeds, and all of them the same number of samples: noise of unequal
-    strength is not symmetric when it has fireflies.
+    strength is not symmetric when it has fireflies. With `variances`, of each pixel's mean in A
+    and in B and of the same shape, one render of each is given, with any number of samples.
     """
-    if len(a) != len(b) or len(a) not in (1, 2):
-        raise ValueError("one render of each scene, or two of each")
-    axes_of = [np.asarray(image, dtype=np.float64) @ _AXES.T for image in (*a, *b)]
-    if len(a) == 1:
-        difference, noises = axes_of[0] - axes_of[1], []
+    if len(a) != len(b) or len(a) not in (1, 2) or (variances and len(a) > 1):
+        raise ValueError("one render of each scene, or two of each, or one with its variance")
+    if variances:
+        difference, statistics, noise_power = _known_noise(a[0], b[0], variances)
     else:
-        a1, a2, b1, b2 = axes_of
-        difference = (a1 + a2 - b1 - b2) / 2
-        noises = [(a1 - a2 + b1 - b2) / 2, (a1 - a2 - b1 + b2) / 2]
-
-    tests = []  # (log p, tile size) of every size and kind: rows x columns x axes
-    for size in _tile_sizes(difference.shape):
-        tests.append((_log_p(np.abs(_self_normalised(difference, size))) + math.log(2), size))
-        for noise in noises:
-            spread = np.abs(difference) - np.abs(noise)
-            tests.append((_log_p(_self_normalised(spread, size)), size))
+        difference, statistics, noise_power = _unknown_noise(a, b)
+    tests = [  # (log p, tile size) of every size and kind: rows x columns x axes
+        (statistic.log_p(size), size)
+        for size in _tile_sizes(difference.shape)
+        for statistic in statistics
+    ]
     every = np.concatenate([log_p.ravel() for log_p, _ in tests])
     log_level = math.log(level)
     significant = _benjamini_hochberg(every, log_level)
@@ -102,7 +126,7 @@ def compare(a: Sequence[np.ndarray], b: Sequence[np.ndarray], level: float = 0.0
             inside |= not inside.any()
 
     rms = math.sqrt(np.mean(difference**2))
-    rms_noise = math.sqrt(np.mean([noise**2 for noise in noises])) if noises else None
+    rms_noise = math.sqrt(noise_power) if noise_power is not None else None
     beyond = math.sqrt(max(0.0, rms**2 - rms_noise**2)) if rms_noise is not None else None
     return NoiseTest(
         different=smallest <= log_level,
@@ -115,6 +139,40 @@ def compare(a: Sequence[np.ndarray], b: Sequence[np.ndarray], level: float = 0.0
         rms_noise=rms_noise,
         rms_beyond=beyond,
     )
+
+
+def _unknown_noise(
+    a: Sequence[np.ndarray], b: Sequence[np.ndarray]
+) -> tuple[np.ndarray, list[_Statistic], float | None]:
+    """The difference, what is tested of it, and the mean square of its noise."""
+    axes_of = [np.asarray(image, dtype=np.float64) @ _AXES.T for image in (*a, *b)]
+    if len(a) == 1:
+        difference, noises = axes_of[0] - axes_of[1], []
+    else:
+        a1, a2, b1, b2 = axes_of
+        difference = (a1 + a2 - b1 - b2) / 2
+        noises = [(a1 - a2 + b1 - b2) / 2, (a1 - a2 - b1 + b2) / 2]
+    spreads = [np.abs(difference) - np.abs(noise) for noise in noises]
+    statistics = [_Statistic(difference, difference**2, two_sided=True)]
+    statistics += [_Statistic(spread, spread**2, two_sided=False) for spread in spreads]
+    noise_power = float(np.mean([noise**2 for noise in noises])) if noises else None
+    return difference, statistics, noise_power
+
+
+def _known_noise(
+    a: np.ndarray, b: np.ndarray, variances: tuple[np.ndarray, np.ndarray]
+) -> tuple[np.ndarray, list[_Statistic], float]:
+    """The same; here the axes are the channels, for whose sums no variance is known."""
+    difference = np.asarray(a, dtype=np.float64) - b
+    power = np.add(*variances, dtype=np.float64)
+    spread = difference**2 - power
+    # Files of half floats are rounded, also where there is no noise.
+    rounding = (_HALF_FLOAT * np.maximum(np.abs(a), np.abs(b), dtype=np.float64)) ** 2
+    statistics = [
+        _Statistic(difference, power + rounding, two_sided=True),
+        _Statistic(spread - rounding, spread**2 + rounding**2, two_sided=False),
+    ]
+    return difference, statistics, float(power.mean())
 
 
 def _grid(shape: tuple[int, ...], size: int) -> tuple[int, int]:
@@ -131,14 +189,17 @@ def _tile_sizes(shape: tuple[int, ...]) -> Iterator[int]:
         size *= 2
 
 
-def _self_normalised(x: np.ndarray, size: int) -> np.ndarray:
-    """T of every tile and axis; 0 where nothing differs."""
+def _tile_sums(x: np.ndarray, size: int) -> np.ndarray:
+    """Sums over every tile: rows x columns x axes."""
     rows, columns = _grid(x.shape, size)
     padded = np.zeros((rows * size, columns * size, x.shape[2]))
     padded[: x.shape[0], : x.shape[1]] = x
-    tiles = padded.reshape(rows, size, columns, size, x.shape[2])
-    length = np.sqrt((tiles**2).sum(axis=(1, 3)))
-    return np.divide(tiles.sum(axis=(1, 3)), length, out=np.zeros_like(length), where=length > 0.0)
+    return padded.reshape(rows, size, columns, size, x.shape[2]).sum(axis=(1, 3))
+
+
+def _ratio(sums: np.ndarray, lengths: np.ndarray) -> np.ndarray:
+    """T; 0 where nothing differs."""
+    return np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0.0)
 
 
 def _log_p(t: np.ndarray) -> np.ndarray:

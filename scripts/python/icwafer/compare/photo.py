@@ -29,7 +29,8 @@ Corners = tuple[Point, Point, Point, Point]
 class PhotoComparison:
     """Both pictures as rectangles of linear Rec.709, the render's brightness made the photo's.
 
-    gain: by which the render's light was multiplied for that.
+    gain: by which the render's light was multiplied for that. pictures: both as a screen shows
+    them, whole, and corners: of the die in each. line: in shares of the die's width and height.
     """
 
     photo: np.ndarray
@@ -39,6 +40,9 @@ class PhotoComparison:
     view: ViewTransform
     gain: float
     hues: HueComparison
+    pictures: tuple[np.ndarray, np.ndarray]
+    corners: tuple[Corners, Corners]
+    line: tuple[Point, Point]
 
 
 def compare(
@@ -61,9 +65,10 @@ def compare(
     size = rectify.natural_size(corners)
     shown = view.encode(rendered.pixels) if rendered.linear else rendered.pixels
     width, height = rendered.size
-    whole = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
+    if render_corners is None:
+        render_corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
     flat_photo = rectify.rectify(srgb.decode(pictured.pixels), corners, size)
-    flat_render = rectify.rectify(srgb.decode(shown), render_corners or whole, size)
+    flat_render = rectify.rectify(srgb.decode(shown), render_corners, size)
     light = [float((flat @ srgb.LUMINANCE).mean()) for flat in (flat_photo, flat_render)]
     for path, mean in zip((photo, render), light):
         if mean <= 0.0:
@@ -76,6 +81,9 @@ def compare(
         view=view,
         gain=light[0] / light[1],
         hues=hues.compare(flat_photo, flat_render, line),
+        pictures=(pictured.pixels, shown),
+        corners=(corners, render_corners),
+        line=line,
     )
 
 

@@ -37,6 +37,12 @@ def homography(corners: tuple[Point, Point, Point, Point]) -> np.ndarray:
     return np.append(np.linalg.solve(rows, right), 1.0).reshape(3, 3)
 
 
+def from_unit(corners: tuple[Point, Point, Point, Point], point: Point) -> Point:
+    """Where a point of the die, in shares of its width and height, is in the picture."""
+    x, y, w = homography(corners) @ (*point, 1.0)
+    return float(x / w), float(y / w)
+
+
 def natural_size(
     corners: tuple[Point, Point, Point, Point], longest: int = 512
 ) -> tuple[int, int]:

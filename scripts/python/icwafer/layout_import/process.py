@@ -29,8 +29,8 @@ from pathlib import Path
 from typing import Any
 
 from icwafer.chips.rules import rule_of, ruled
-from icwafer.chips.suggest import unknown
 from icwafer.errors import IcwaferError
+from icwafer.suggest import unknown
 from icwafer.toml_lines import key_name, line_of
 
 #: The process of a file of which nothing else is said.

@@ -57,7 +57,7 @@ class Light:
         "width and height of an area or a card", 1e-3, FAR_MM, default=(10.0, 10.0)
     )
     fade: float = ruled(
-        "share of an area or a card over which its light fades out towards the edges, as in a softbox",
+        "share of an area or a card over which its light fades out to the edges, as in a softbox",
         0,
         1,
         default=0.0,

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene after a photograph of a wafer: "Si wafer" by Enrique Jimenez (CC BY-SA 2.0).
 
-The camera is solved from the lattice of the dies in the photograph: a pinhole camera whose middle is
-the middle of the photograph and whose lens is such that the rim becomes a circle fits the lattice
-with 0.5 pixels (RMS, of 1024 x 682). The lamp, the wires, the film and the gamma were searched
-with the model itself: the colour of 201 dies, OKLab. In the photograph only u d is seen, 980 to
-1590 nm over the wafer (orders 2 and 3); of the periods of 1300 to 1700 nm, each with the lamp that
-goes with it, the one here fits best.
+The camera is solved from the lattice of the dies in the photograph: a pinhole camera whose middle
+is the middle of the photograph, and whose lens is such that the rim becomes a circle, fits the
+lattice with 0.5 pixels (RMS, of 1024 x 682). The lamp, the wires and the film were searched with
+the model itself: the colours of 201 dies in OKLab. The photograph shows only u d, 980 to 1590 nm
+over the wafer (orders 2 and 3); of the periods of 1300 to 1700 nm, each with the lamp that goes
+with it, the one here fits best.
 """
 
 from __future__ import annotations
@@ -30,7 +30,14 @@ PHOTOGRAPH = Picture(
         # Low behind: the far rim.
         Light("CARD", (-120.0, 620.0, 60.0), 1.5e5, size_mm=(800.0, 90.0), fade=0.5),
         # What the bare silicon of the near rim mirrors: a dim window.
-        Light("CARD", (-190.0, 390.0, 380.0), 1.2e3, (0.1, 0.25, 1.0), size_mm=(300.0, 160.0), fade=0.6),
+        Light(
+            "CARD",
+            (-190.0, 390.0, 380.0),
+            1.2e3,
+            (0.1, 0.25, 1.0),
+            size_mm=(300.0, 160.0),
+            fade=0.6,
+        ),
     ),
     Camera(
         position_mm=(4.01, -319.82, 204.83),

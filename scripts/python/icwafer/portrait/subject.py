@@ -47,7 +47,8 @@ def subject_of(
 ) -> Subject:
     """Reads a layout file, or imports a chip; `layers` names its process or a layer map.
 
-    top, tile_um, window_um: see `reader.Request`. progress is told how much is done, 0 to 1. Raises IcwaferError where the file cannot be read.
+    top, tile_um, window_um: see `reader.Request`. progress is told how much is done, 0 to 1.
+    Raises IcwaferError where the file cannot be read.
     """
     if path.name.endswith(ENDING):
         layout = read_layout(path)

@@ -7,11 +7,21 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
+from icwafer import paths
+from icwafer.errors import IcwaferError
+
 
 def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
     """Adds the subcommand; `add` makes a parser of a name and a help text."""
     parser = add("report", "one HTML page on which the renders of a study are compared")
-    parser.add_argument("folder", type=Path, metavar="DIR", help="what icwafer render wrote")
+    parser.add_argument(
+        "folder", type=Path, nargs="?", metavar="DIR", help="what icwafer render wrote"
+    )
+    parser.add_argument(
+        "--all",
+        action="store_true",
+        help="reports of all studies in DIR (if there is none: out/studies), and an index of them",
+    )
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="the page; DIR/report.html"
     )
@@ -54,8 +64,21 @@ def _run(arguments: argparse.Namespace) -> int:
 
     packages.install("images")
     from icwafer.compare.flip import DEFAULT_PIXELS_PER_DEGREE
-    from icwafer.report import page, study
+    from icwafer.report import overview, page, study
 
+    if arguments.all:
+        _refuse(arguments, "output", "view", "look")
+        for path in overview.write(
+            arguments.folder or paths.OUT / "studies",
+            config=arguments.ocio,
+            ppd=arguments.ppd or DEFAULT_PIXELS_PER_DEGREE,
+            hdr=arguments.hdr,
+            largest_mb=arguments.megabytes,
+        ):
+            print(path)
+        return 0
+    if arguments.folder is None:
+        raise IcwaferError("name the folder that icwafer render wrote, or give --all")
     loaded = study.load(arguments.folder)
     for path in page.write(
         loaded,
@@ -69,3 +92,9 @@ def _run(arguments: argparse.Namespace) -> int:
     ):
         print(path)
     return 0
+
+
+def _refuse(arguments: argparse.Namespace, *options: str) -> None:
+    for option in options:
+        if getattr(arguments, option) is not None:
+            raise IcwaferError(f"--{option} is for one report; leave it out with --all")

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +17,7 @@ from icwafer.report.measure import Measured, Options
 from icwafer.report.study import Axis, Job, Study
 
 _CELL_PX = 320
+_MOST_CELLS, _MOST_SHEETS = 24, 12  # across or down
 _GAP_PX = 6
 _MARGIN_PX = 92
 _FONT_PX = 18
@@ -30,16 +33,19 @@ def contact_sheet(
 ) -> list[oiio.ImageBuf]:
     """One sheet for each combination of the axes' values beyond the two with most values.
 
-    The longest axis runs to the right, the next one down. No axes, no sheet.
+    The longest axis runs to the right, the next one down. No axes, no sheet. Of long axes a sheet
+    has some values, evenly spread, and of many sheets there are some.
     """
     swept = sorted(
         (axis for axis in study.axes if len(axis.values) > 1), key=lambda axis: -len(axis.values)
     )
     if not swept:
         return []
-    across, down, others = swept[0], swept[1] if len(swept) > 1 else None, swept[2:]
+    across = _thinned(swept[0], _MOST_CELLS)
+    down = _thinned(swept[1], _MOST_CELLS) if len(swept) > 1 else None
     sheets = []
-    for chosen in itertools.product(*(axis.values for axis in others)):
+    others = swept[2:]
+    for chosen in spread_over(list(itertools.product(*(axis.values for axis in others))), _MOST_SHEETS):
         fixed = dict(zip((axis.name for axis in others), chosen))
         title = ", ".join(
             f"{axis.name} {_text(value)} {axis.unit}".strip()
@@ -48,6 +54,8 @@ def contact_sheet(
         jobs = [
             job for job in study.jobs
             if job.id in measured
+            and job.settings.get(across.name) in across.values
+            and (down is None or job.settings.get(down.name) in down.values)
             and all(job.settings.get(name) == value for name, value in fixed.items())
         ]  # fmt: skip
         if jobs:
@@ -60,6 +68,17 @@ def contact_sheet(
             heading = f"{study.name}: {title}" if title else study.name
             sheets.append(_sheet(heading, across, down, pictures))
     return sheets
+
+
+def spread_over(values: Sequence[Any], most: int) -> Sequence[Any]:
+    """At most so many values, evenly spread, the first and the last among them."""
+    if len(values) <= most:
+        return values
+    return [values[i] for i in np.linspace(0, len(values) - 1, most).round().astype(int)]
+
+
+def _thinned(axis: Axis, most: int) -> Axis:
+    return replace(axis, values=tuple(spread_over(axis.values, most)))
 
 
 def _sheet(

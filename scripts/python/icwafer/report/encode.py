@@ -21,7 +21,8 @@ from icwafer.errors import IcwaferError
 #: Tables of view transforms have this many points (a side), over 2^first to 2^last of light.
 CURVE_POINTS, CUBE_POINTS = 4096, 49
 TABLE_STOPS = (-12.0, 7.0)
-_THUMBNAIL_PX = 320
+#: The longer side of a thumbnail, at most.
+THUMBNAIL_PX = 320
 
 
 def pack(values: bytes) -> str:
@@ -67,10 +68,10 @@ def view_table(view: ViewTransform) -> str:
     return pack(np.round(cube * 65535).astype("<u2").tobytes())
 
 
-def thumbnail(shown: np.ndarray) -> str:
-    """A small WebP, as a data URI, of an image as a screen shows it."""
+def thumbnail(shown: np.ndarray, side: int) -> str:
+    """A small WebP, as a data URI, of an image as a screen shows it; `side` is the longer one."""
     height, width = shown.shape[:2]
-    scale = min(1.0, _THUMBNAIL_PX / max(width, height))
+    scale = min(1.0, side / max(width, height))
     size = max(1, round(width * scale)), max(1, round(height * scale))
     small = oiio.ImageBufAlgo.resize(to_buffer(shown), roi=oiio.ROI(0, size[0], 0, size[1]))
     small.set_write_format(oiio.UINT8)

@@ -54,7 +54,7 @@ class Measured:
 @dataclass(frozen=True)
 class Options:
     """config: OpenColorIO's; view and look: for jobs that name none. ppd: pixels per degree.
-    scale: of the embedded pixels. hdr: whether HDR-FLIP, which takes longest, is computed.
+    scale: of the embedded pixels. thumbnail_px: longer side of a thumbnail. hdr: whether HDR-FLIP, which takes longest, is computed.
     layer: of the EXRs."""
 
     config: Path | None
@@ -62,6 +62,7 @@ class Options:
     look: str | None
     ppd: float
     scale: float
+    thumbnail_px: int
     hdr: bool
     layer: str | None = None
 
@@ -133,7 +134,7 @@ def _measure(job: Job, reference: Job | None, options: Options) -> Measured:
         size=size,
         original_size=image.size,
         pixels=encode.half_floats(_small(linear, size)),
-        thumbnail=encode.thumbnail(shown),
+        thumbnail=encode.thumbnail(shown, options.thumbnail_px),
         linear=image.linear,
         view=view.name,
         values={name: values[name] for name in MEASURES if name in values},

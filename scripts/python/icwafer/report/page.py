@@ -7,7 +7,7 @@ import html
 import json
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ from typing import Any
 import OpenImageIO as oiio
 
 from icwafer.compare.colour import ViewTransform
-from icwafer.compare.overlay import Curve
 from icwafer.errors import IcwaferError
 from icwafer.files import replacing
 from icwafer.report import encode, measure, tables
@@ -26,8 +25,13 @@ from icwafer.report.study import Job, Study
 _PARTS = Path(__file__).with_name("page")
 #: In this order: each may use what those before it define.
 _SCRIPTS = ("decode", "colours", "viewer", "contact", "plots", "table", "photo", "main")
-# What a pixel takes in the page: a noisy render's half floats, and two maps, compressed, base64.
-_BYTES_PER_PIXEL = 8.0
+# What things take in the page, compressed and in base64: a pixel of a noisy render's half floats
+# and two maps, a pixel of a thumbnail, and a job's settings, measures and orders.
+_PIXEL_BYTES, _THUMBNAIL_BYTES, _JOB_BYTES = 8.0, 0.4, 4000.0
+#: Of a thumbnail: smaller ones show nothing.
+_SMALLEST_PX = 48
+#: The part of a page's size that thumbnails may take.
+_THUMBNAILS = 0.2
 
 
 def write(
@@ -60,8 +64,8 @@ def write(
     reference = next((job for job in finished if job.id == study.reference), None)
     if reference is None and study.reference is None and len(finished) > 1:
         reference = finished[0]
-    scale = _scale(finished, largest_mb)
-    options = Options(config, view, look, ppd, scale, hdr, layer)
+    scale, thumbnail_px = _sizes(finished, largest_mb)
+    options = Options(config, view, look, ppd, scale, thumbnail_px, hdr, layer)
     measured, unusable = measure.measure(
         study, reference, options, processes or os.cpu_count() or 1
     )
@@ -101,15 +105,19 @@ def _with_error(job: Job, errors: dict[str, str]) -> Job:
     return replace(job, error=errors[job.id], image=None) if job.id in errors else job
 
 
-def _scale(jobs: Iterable[Job], largest_mb: float) -> float:
-    """At most 1, so that all pictures together fit."""
+def _sizes(jobs: Sequence[Job], largest_mb: float) -> tuple[float, int]:
+    """Scale of the embedded pictures, at most 1, and sides of the thumbnails, so that all fit."""
+    room = largest_mb * 1e6
+    thumbnail = (_THUMBNAILS * room / len(jobs) / _THUMBNAIL_BYTES) ** 0.5
+    room = max(room * (1 - _THUMBNAILS) - _JOB_BYTES * len(jobs), 0.2 * room)
     pixels = 0
     for job in jobs:
         file = oiio.ImageInput.open(str(job.image))
         if file is not None:
             pixels += file.spec().width * file.spec().height
             file.close()
-    return min(1.0, (largest_mb * 1e6 / max(1.0, pixels * _BYTES_PER_PIXEL)) ** 0.5)
+    scale = (room / max(1.0, pixels * _PIXEL_BYTES)) ** 0.5
+    return min(1.0, scale), max(_SMALLEST_PX, min(encode.THUMBNAIL_PX, round(thumbnail)))
 
 
 def _page_data(
@@ -147,7 +155,6 @@ def _job_data(job: Job, found: Measured | None) -> dict[str, Any]:
         "error": job.error,
     }
     if found:
-        shrunk = found.size[0] / found.original_size[0]
         data |= {
             "width": found.size[0],
             "height": found.size[1],
@@ -156,27 +163,34 @@ def _job_data(job: Job, found: Measured | None) -> dict[str, Any]:
             "view": found.view,
             "measures": found.values,
             "maps": [name for name in ("flip", "hdr_flip") if getattr(found, name)],
-            "curves": [_curve_data(curve, shrunk) for curve in found.curves],
+            "orders": bool(found.curves),
         }
     return data
 
 
-def _curve_data(curve: Curve, scale: float) -> dict[str, Any]:
-    return {
-        "order": curve.order,
-        "nm": curve.wavelength_nm,
-        "segments": (curve.segments * scale).round(1).ravel().tolist(),
-    }
+def _curves(found: Measured) -> str:
+    """The orders' curves as packed JSON, in embedded pixels."""
+    shrunk = found.size[0] / found.original_size[0]
+    curves = [
+        {
+            "order": curve.order,
+            "nm": curve.wavelength_nm,
+            "segments": (curve.segments * shrunk).round(1).ravel().tolist(),
+        }
+        for curve in found.curves
+    ]
+    return encode.pack(json.dumps(curves).encode())
 
 
 def _blobs(measured: dict[str, Measured], views: dict[str, ViewTransform]) -> dict[str, str]:
-    """The long texts by name: pixels and maps of each job, the table of each view transform."""
+    """The long texts by name: each job's pixels, maps and orders, each view transform's table."""
     blobs = {
         f"{kind}:{job}": getattr(found, kind)
         for job, found in measured.items()
         for kind in ("pixels", "flip", "hdr_flip")
         if getattr(found, kind)
     }
+    blobs |= {f"curves:{job}": _curves(found) for job, found in measured.items() if found.curves}
     return blobs | {f"view:{name}": encode.view_table(view) for name, view in views.items()}
 
 

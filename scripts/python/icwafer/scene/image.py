@@ -30,6 +30,22 @@ def save(scene: bpy.types.Scene, path: Path) -> None:
 
     Raises RuntimeError where Blender cannot write it.
     """
+    _write(scene, bpy.data.images["Render Result"], path)
+
+
+def show(scene: bpy.types.Scene, linear: Path, path: Path) -> None:
+    """Writes a scene-linear EXR as a PNG, through the scene's view transform.
+
+    Raises RuntimeError where Blender cannot read or write it.
+    """
+    image = bpy.data.images.load(str(linear))
+    try:
+        _write(scene, image, path)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _write(scene: bpy.types.Scene, image: bpy.types.Image, path: Path) -> None:
     settings = scene.render.image_settings
     if path.suffix == ".exr":
         settings.file_format, settings.color_depth = "OPEN_EXR", "16"
@@ -38,4 +54,4 @@ def save(scene: bpy.types.Scene, path: Path) -> None:
         settings.file_format, settings.color_depth = "PNG", "8"
     settings.color_mode = "RGB"
     settings.compression = 100
-    bpy.data.images["Render Result"].save_render(str(path), scene=scene)
+    image.save_render(str(path), scene=scene)

@@ -2,7 +2,7 @@
 """How to turn a chip so that the colours of a lamp reach the camera.
 
 Long wires send light only into the plane across them: with q the sum of the unit vectors to the
-lamp and to the eye, all orders of a grating are where q has no part along the wires (DESIGN: v = 0).
+lamp and to the eye, all orders of a grating are where q has no part along the wires.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from icwafer.scene.material import NODE, set_node
 from icwafer.scene.properties import assign
 from icwafer.scene.render import VIEW_ATTRIBUTES
 from icwafer.study import fields
-from icwafer.toml_lines import nearest
+from icwafer.suggest import nearest
 
 _RENDER = {
     "samples": "cycles.samples",

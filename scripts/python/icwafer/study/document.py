@@ -43,7 +43,8 @@ from icwafer import toml_lines
 from icwafer.chips.presets import PRESETS
 from icwafer.errors import IcwaferError, SettingError
 from icwafer.study import fields
-from icwafer.toml_lines import Document, FieldPath, nearest
+from icwafer.suggest import nearest
+from icwafer.toml_lines import Document, FieldPath
 
 VERSION = 1
 _KEYS = ("version", "name", "description", "base", "reference", "scene", "axis")

@@ -32,7 +32,7 @@ from icwafer.chips.rules import Rule
 from icwafer.chips.spread import Clustered, Normal, Spread, Uniform
 from icwafer.errors import SettingError
 from icwafer.pictures import PICTURES, Picture
-from icwafer.toml_lines import nearest
+from icwafer.suggest import nearest
 
 sys.path.insert(0, str(paths.PLUGIN / "manual"))
 import make_manual  # noqa: E402

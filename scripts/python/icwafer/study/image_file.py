@@ -16,14 +16,14 @@ from icwafer.errors import DiskFull, IcwaferError
 #: All our attributes begin with this.
 PREFIX = "icwafer:"
 #: What Blender writes that differs each time, or says where a file happened to be.
-_FLEETING = ("Date", "File", "RenderTime", "Time", "Hostname", "Memory", "Software")
+_FLEETING = ("Date", "capDate", "File", "RenderTime", "Time", "Hostname", "Memory", "Software")
 #: The time that EXIF calls unknown: without one OpenImageIO notes the present time.
 _UNKNOWN_TIME = "0000:00:00 00:00:00"
 _TYPES = {".exr": oiio.HALF, ".png": oiio.UINT8}
 
 
 def copy(source: Path, target: Path, attributes: Mapping[str, str] | None = None) -> None:
-    """Copies an image, with attributes added (their names without `PREFIX`).
+    """Copies an image, with these of our attributes (their names without `PREFIX`) and no others.
 
     The same pixels and attributes give the same bytes: times and places that Blender notes are
     left out. Raises DiskFull where there is no room for the file.
@@ -33,7 +33,7 @@ def copy(source: Path, target: Path, attributes: Mapping[str, str] | None = None
     pixels = image.get_pixels(kind)
     spec = image.specmod()
     for name in [attribute.name for attribute in spec.extra_attribs]:
-        if name in _FLEETING or name.endswith("_time"):
+        if name in _FLEETING or name.endswith("_time") or name.startswith(PREFIX):
             spec.erase_attribute(name)
     spec.attribute("DateTime", _UNKNOWN_TIME)
     for name, value in (attributes or {}).items():

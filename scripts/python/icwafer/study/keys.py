@@ -2,7 +2,8 @@
 """Keys of jobs: the same key, the same result.
 
 A key is a SHA-256 over the settings of the scene, the content of the files that they name, the
-scripts that build the scene, and the program that renders it.
+scripts that build the scene, and the program that renders it. The key of the light leaves out how
+the light is shown: jobs that differ in their view transforms only share one linear image.
 """
 
 from __future__ import annotations
@@ -17,10 +18,11 @@ from icwafer.dependencies import file_hash, scripts_hash
 from icwafer.study import fields
 
 #: Raised when the same inputs would give another image, or a result's files another form.
-FORMAT = 1
+FORMAT = 2
 WORKER = Path(__file__).with_name("worker.py")
 
 _DIE = "die."
+_VIEW = "view."
 #: The order of groups matters to a die; the order in which a study names these never does.
 _UNORDERED = ("node.", "data.")
 
@@ -33,11 +35,13 @@ class Keys:
         self._constants = f"{FORMAT} {program} {scripts_hash(WORKER)}"
         self._needs = needs
 
-    def of(self, scene: fields.Scene, die: str | None = None) -> str:
-        """The key of a scene; `die` is the digest of its die, if that is known."""
-        rest = [item for item in scene.items() if not item[0].startswith((_DIE, *_UNORDERED))]
+    def of(self, scene: fields.Scene, die: str | None = None) -> tuple[str, str]:
+        """The keys of a scene and of its light; `die` is the digest of its die, if known."""
+        apart = (_DIE, _VIEW, *_UNORDERED)
+        rest = [item for item in scene.items() if not item[0].startswith(apart)]
         rest += sorted(item for item in scene.items() if item[0].startswith(_UNORDERED))
-        return _digest([self._constants, die or self.die(scene), self._with_content(rest)])
+        light = _digest([self._constants, die or self.die(scene), self._with_content(rest)])
+        return _digest([light, [i for i in scene.items() if i[0].startswith(_VIEW)]]), light
 
     def die(self, scene: fields.Scene) -> str:
         """The digest of a scene's die."""

@@ -4,7 +4,11 @@
 A crash costs the job that the worker was at, and a new worker goes on. A job whose worker crashed
 after it had done others is tried once more in a fresh one: no job suffers from those before it.
 
-    engine:  {"do": "render", "folder": …, "scene": {…}, "attributes": {…}}
+Of jobs that share their light one is rendered; the others wait for it and take over its linear
+image.
+
+    engine:  {"do": "render", "folder": …, "scene": {…}, "attributes": {…}, "light": …}
+                                             light: a linear image of the same light, or none
     worker:  {"seconds": …, …}               facts for job.json; the images and the log are in
                                              the folder
         or:  {"error": "…"}                  this job cannot be rendered
@@ -14,14 +18,14 @@ after it had done others is tried once more in a fresh one: no job suffers from 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from icwafer.errors import IcwaferError
 from icwafer.study.plan import Job
-from icwafer.study.store import Store
+from icwafer.study.store import LIGHT, Store
 from icwafer.study.workers import Crew, Renderer, Reply, Worker
 
 #: A worker is replaced after so many jobs, whatever may have piled up in it.
@@ -49,22 +53,26 @@ def render(
     renderer: Renderer,
     attributes: Callable[[Job], Mapping[str, str]],
     facts: Callable[[Job], Mapping[str, Any]],
+    lights: Mapping[str, Path],
 ) -> Iterator[Outcome]:
     """Renders jobs and yields how each ended, as they end.
 
-    attributes: the metadata of a job's EXR file. facts: what its `job.json` says besides what the
+    lights: linear images that are there, by the keys of their light. attributes: the metadata of a job's EXR file. facts: what its `job.json` says besides what the
     worker reports. Raises IcwaferError where no job can be rendered (the renderer does not start,
     the disk is full); what is finished then stays.
     """
     waiting = deque((job, False) for job in jobs)
+    lights = dict(lights)
     with Crew(renderer) as crew:
         while waiting or any(worker.task for worker in crew.workers):
             crew.staff(len(waiting) + sum(worker.task is not None for worker in crew.workers))
             for worker in crew.idle():
-                if waiting:
-                    job, again = waiting.popleft()
+                rendered = {other.task.job.light_key for other in crew.workers if other.task}
+                if chosen := _next(waiting, rendered - lights.keys()):
+                    job, again = chosen
                     worker.task = _Attempt(job, store.part(job), again)
-                    worker.send(_request(worker.task, attributes(job)))
+                    light = lights.get(job.light_key)
+                    worker.send(_request(worker.task, attributes(job), light))
             for worker, reply in crew.replies():
                 attempt: _Attempt | None = worker.task
                 if isinstance(reply, str):
@@ -77,16 +85,31 @@ def render(
                         continue
                     reply = {"error": f"the renderer {reply}"}
                 if attempt is not None:
-                    yield _finish(store, attempt, reply, facts(attempt.job))
+                    outcome = _finish(store, attempt, reply, facts(attempt.job))
+                    if not outcome.error:
+                        lights[attempt.job.light_key] = store.jobs / attempt.job.id / LIGHT
+                    yield outcome
                     _release(worker, renderer)
 
 
-def _request(attempt: _Attempt, attributes: Mapping[str, str]) -> Mapping[str, Any]:
+def _next(waiting: deque[tuple[Job, bool]], rendered: Set[str]) -> tuple[Job, bool] | None:
+    """Takes the first job out whose light is not just being rendered."""
+    for place, (job, again) in enumerate(waiting):
+        if job.light_key not in rendered:
+            del waiting[place]
+            return job, again
+    return None
+
+
+def _request(
+    attempt: _Attempt, attributes: Mapping[str, str], light: Path | None
+) -> Mapping[str, Any]:
     return {
         "do": "render",
         "folder": str(attempt.part),
         "scene": attempt.job.scene,
         "attributes": dict(attributes),
+        "light": light and str(light),
     }
 
 

@@ -91,8 +91,8 @@ class Order:
         }
 
     def command(self, *jobs: str) -> list[str]:
-        """The words that render the study again, or some jobs of it."""
-        words = ["scripts/icwafer", "render", self.study, "-o", self.folder]
+        """The words that render the study again, or some jobs of it, in the repository's folder."""
+        words = ["scripts/icwafer", "render", _there(self.study), "-o", _there(self.folder)]
         for setting in self.settings:
             words += ["--set", setting]
         for job in jobs:
@@ -108,6 +108,7 @@ class Order:
             "scene": json.dumps(job.scene),
             "seed": str(job.scene.get("render.seed", "that of the file")),
             "key": job.key,
+            "light_key": job.light_key,
             "versions": json.dumps(dict(self.versions)),
             "node_build": self.program["node_build"],
             "command": shlex.join(self.command(job.id)),
@@ -120,10 +121,17 @@ class Order:
             "id": job.id,
             "settings": dict(job.labels),
             "key": job.key,
+            "light_key": job.light_key,
             "command": self.command(job.id),
             "scene": job.scene,
             "grating": [] if from_file else gratings(fields.picture_of(job.scene)),
         }
+
+
+def _there(path: Path) -> Path:
+    """A path as seen from the repository, where it is inside."""
+    inside = path.is_relative_to(paths.REPOSITORY)
+    return path.relative_to(paths.REPOSITORY) if inside else path
 
 
 def _colour_config(blender: Path) -> Path:

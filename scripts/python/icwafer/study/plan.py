@@ -21,7 +21,8 @@ from icwafer.errors import IcwaferError, SettingError
 from icwafer.study import fields, image_file
 from icwafer.study.document import Assignment, Axis, Step, Study, overridden
 from icwafer.study.keys import Keys
-from icwafer.toml_lines import Document, nearest
+from icwafer.suggest import nearest
+from icwafer.toml_lines import Document
 
 MAX_JOBS = 1_000_000
 MAX_ID = 120
@@ -29,12 +30,16 @@ MAX_ID = 120
 
 @dataclass(frozen=True)
 class Job:
-    """One image: `labels` has its value of each axis, `scene` all settings, with full paths."""
+    """One image: `labels` has its value of each axis, `scene` all settings, with full paths.
+
+    light_key: jobs that have it in common differ in how their light is shown, not in the light.
+    """
 
     id: str
     labels: Mapping[str, Any]
     scene: fields.Scene
     key: str
+    light_key: str
 
 
 @dataclass(frozen=True)
@@ -83,7 +88,7 @@ def make(study: Study, program: str, needs: Mapping[str, Sequence[str]] | None =
         if die not in dies:
             _check_die(study, identity, scene)
             dies.add(die)
-        jobs.append(Job(identity, labels, scene, keys.of(scene, die)))
+        jobs.append(Job(identity, labels, scene, *keys.of(scene, die)))
     return Plan(study, tuple(jobs), _reference(study, jobs))
 
 
@@ -161,9 +166,9 @@ def of_image(image: Path, settings: Sequence[str], program: str) -> Plan:
     study = overridden(study, list(settings))
     _apply(scene, study.scene)
     _check_die(study, noted["job"], scene)
-    key = Keys(program, {}).of(scene)
     identity = "_".join(map(_slug, noted["job"].split("_")))[:MAX_ID]
-    return Plan(study, (Job(identity, labels, scene, key),), None)
+    job = Job(identity, labels, scene, *Keys(program, {}).of(scene))
+    return Plan(study, (job,), None)
 
 
 def _expect_one_axis_each(study: Study) -> None:

@@ -18,7 +18,7 @@ from icwafer.study.order import Order
 from icwafer.study.plan import Job, Plan
 from icwafer.study.store import Store
 from icwafer.study.workers import Reply, ask
-from icwafer.toml_lines import nearest
+from icwafer.suggest import nearest
 
 #: What a path costs where nothing has been measured yet, in seconds of all cores: the picture
 #: `full` has 66 million paths and takes 75 s on two cores.
@@ -98,7 +98,12 @@ def render_here(jobs: Sequence[Job], made: Plan, store: Store, order: Order) -> 
     store.clean()
     name = made.study.name
     yield from local.render(
-        jobs, store, order.renderer, lambda job: order.attributes(job, name), order.facts
+        jobs,
+        store,
+        order.renderer,
+        lambda job: order.attributes(job, name),
+        order.facts,
+        store.lights(made.jobs),
     )
 
 
@@ -124,14 +129,16 @@ def estimate_s(order: Order, made: Plan, jobs: Sequence[Job]) -> float | None:
     measured = [store.facts(job) for job in made.jobs[:1000]]
     paths = seconds = 0.0
     for facts in measured:
-        if facts.get("status") == "done":
+        if facts.get("status") == "done" and facts.get("rendered"):
             paths += facts["size"][0] * facts["size"][1] * facts["samples"]
             seconds += max(facts["seconds"] - JOB_S, 0.0)
     rate = seconds / paths / order.workers if paths else SECONDS_PER_PATH
     if any("render.size" not in job.scene for job in jobs):
         return None
     starts = START_S * (len(jobs) if order.isolate else order.workers)
-    cost = sum(map(paths_of, jobs)) * rate
+    there = store.lights(made.jobs)
+    rendered = {job.light_key: job for job in jobs if job.light_key not in there}
+    cost = sum(map(paths_of, rendered.values())) * rate
     return cost + (starts + JOB_S * len(jobs)) / order.workers
 
 

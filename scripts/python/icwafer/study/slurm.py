@@ -142,7 +142,11 @@ class _Collector:
         self.store.clean()
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
-        tasks = min(len(jobs), _largest_array())
+        # Jobs that share their light go to one task, which renders it once.
+        alike: dict[str, list[Job]] = {}
+        for job in jobs:
+            alike.setdefault(job.light_key, []).append(job)
+        tasks = min(len(alike), _largest_array())
         # Held until the shares are there, which have the array's number in them.
         array = _slurm(
             "sbatch",
@@ -158,7 +162,8 @@ class _Collector:
         ).split(";")[0]
         try:
             for task in range(tasks):
-                share = tuple(jobs[task::tasks])
+                groups = list(alike.values())[task::tasks]
+                share = tuple(job for group in groups for job in group)
                 order = dataclasses.replace(self.order, workers=1)
                 Share(order, self.study, array, share).write(self.folder / f"share-{task}.json")
             with replacing(self.folder / "array.json") as unfinished:

@@ -31,6 +31,7 @@ def main(path: Path) -> int:
             order.renderer,
             lambda job: order.attributes(job, share.study),
             lambda job: {**order.facts(job), "array": share.array},
+            store.lights(share.jobs),
         ):
             print(outcome.job.id, outcome.error or "done", flush=True)
     except IcwaferError as error:

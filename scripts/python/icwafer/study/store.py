@@ -20,7 +20,7 @@ import fcntl
 import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,7 +30,8 @@ from icwafer.errors import IcwaferError
 from icwafer.files import replacing
 from icwafer.study.plan import Job
 
-IMAGES = ("image.exr", "image.png")
+LIGHT = "image.exr"
+IMAGES = (LIGHT, "image.png")
 LOG = "log.txt"
 _PART = ".part-"
 _OLD = ".old-"
@@ -100,6 +101,15 @@ class Store:
                 for name in IMAGES
             )
         )
+
+    def lights(self, jobs: Iterable[Job]) -> dict[str, Path]:
+        """The linear images that some jobs have left, by the keys of their light."""
+        found = {}
+        for job in jobs:
+            facts, image = self.facts(job), self.jobs / job.id / LIGHT
+            if facts.get("status") == "done" and _size(image) == facts["files"].get(LIGHT):
+                found[facts.get("light_key", "")] = image
+        return found
 
     def facts(self, job: Job) -> Mapping[str, Any]:
         """What `job.json` says; nothing where it is missing or unreadable."""

@@ -76,7 +76,9 @@ def _render(request: Mapping[str, Any]) -> dict[str, Any]:
     folder = Path(request["folder"])
     try:
         with _log(folder / "log.txt"):
-            return _render_to(folder, request["scene"], request["attributes"])
+            return _render_to(
+                folder, request["scene"], request["attributes"], request["light"]
+            )
     except SettingError as error:
         return {"error": f"{error.setting} {error}"}
     except IcwaferError as error:
@@ -90,26 +92,45 @@ def _render(request: Mapping[str, Any]) -> dict[str, Any]:
         return {"error": " ".join(str(error).split())}
 
 
-def _render_to(folder: Path, settings: fields.Scene, attributes: Mapping[str, str]) -> dict:
+def _render_to(
+    folder: Path, settings: fields.Scene, attributes: Mapping[str, str], light: str | None
+) -> dict[str, Any]:
+    """Renders, or takes over the linear image `light`, and shows it as the settings say."""
     begin = time.monotonic()
     scene = _build(settings)
     share = scene.render.resolution_percentage / 100
     size = int(scene.render.resolution_x * share), int(scene.render.resolution_y * share)
     image.expect_space(folder, size)
-    bpy.ops.render.render()
-    for name, added in (("image.exr", attributes), ("image.png", {})):
-        raw = folder / f"raw-{name}"
+    raw, linear, shown = (folder / name for name in ("raw.exr", "image.exr", "image.png"))
+    rendered = not _is_light(light, attributes["light_key"])
+    if rendered:
+        bpy.ops.render.render()
         image.save(scene, raw)
-        image_file.copy(raw, folder / name, added)
-        raw.unlink()
+        light = str(raw)
+    image_file.copy(Path(light), linear, attributes)
+    # From the file, so that it does not matter whether it was rendered or taken over.
+    raw = raw.with_suffix(".png")
+    image.show(scene, linear, raw)
+    image_file.copy(raw, shown)
+    for path in folder.glob("raw.*"):
+        path.unlink()
     return {
         "seconds": round(time.monotonic() - begin, 3),
+        "rendered": rendered,
         "samples": scene.cycles.samples,
         "seed": scene.cycles.seed,
         "size": size,
         "view_transform": scene.view_settings.view_transform,
         "look": scene.view_settings.look,
     }
+
+
+def _is_light(path: str | None, key: str) -> bool:
+    """Whether an image is there and has this light: its folder may be another job's by now."""
+    try:
+        return path is not None and image_file.attributes(Path(path)).get("light_key") == key
+    except IcwaferError:
+        return False
 
 
 def _build(settings: fields.Scene) -> bpy.types.Scene:

@@ -2,8 +2,8 @@
 """A small memory of two bars of cells, and its wafer, after a photograph of a 200 mm wafer.
 
 Measured in the photograph "Si wafer" by Enrique Jimenez (CC BY-SA 2.0): the pitch of the dies
-relative to the wafer, the shares of bars and dark strips, the reticle fields of 3 x 5 dies, which of
-them hold test dies, which were not exposed, and where the rim cuts the pattern. Of the wires the
+relative to the wafer, the shares of bars and dark strips, the reticle fields of 3 x 5 dies, which
+of them hold test dies, which were not exposed, and where the rim cuts the pattern. Of the wires the
 photograph shows u d only, 980 to 1590 nm over the wafer (orders 2 and 3), where u depends on the
 lamp. Period, width, depth and film are those that, with the lamp of the picture `photograph`, come
 nearest to the colours of its dies; the size is one that fits such a wafer.
@@ -127,7 +127,7 @@ TEST_TREE = Cut(
     1,
     (
         _row(_CIRCUITS),
-        *(_row(Tiles(Ring(60.0, _LANE, _array(f"array {name}")), columns=1, rows=1)) for name in "cba"),
+        *(_row(Ring(60.0, _LANE, _array(f"array {name}"))) for name in "cba"),
     ),
 )
 

@@ -23,6 +23,7 @@ class ContactSheet {
     this.across = byLength[0];
     this.down = byLength[1] ?? null;
     this.fixed = new Map(swept.map((axis) => [axis.name, 0]));
+    this.jobs = new Map(study.jobs.map((job) => [this.key((axis) => job.settings[axis.name]), job]));
     viewer.addEventListener("change", () => this.mark());
     this.build();
   }
@@ -75,12 +76,14 @@ class ContactSheet {
     this.mark();
   }
 
+  /** One text for a combination of the axes' values. */
+  key(valueOf) {
+    return JSON.stringify(this.swept.map(valueOf));
+  }
+
   cell(row, column) {
-    const job = study.jobs.find((each) => this.swept.every((axis) => {
-      const wanted = axis === this.across ? column
-        : axis === this.down ? row : axis.values[this.fixed.get(axis.name)];
-      return JSON.stringify(each.settings[axis.name]) === JSON.stringify(wanted);
-    }));
+    const job = this.jobs.get(this.key((axis) => axis === this.across ? column
+      : axis === this.down ? row : axis.values[this.fixed.get(axis.name)]));
     if (!job?.width) {
       return element("div", { class: "cell missing" }, job ? `${job.id}: ${job.error}` : "not rendered");
     }

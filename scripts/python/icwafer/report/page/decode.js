@@ -12,8 +12,11 @@ for (let bits = 0; bits < HALF.length; ++bits) {
   HALF[bits] = exponent ? 2 ** (exponent - 15) * (1 + fraction) : 2 ** -14 * fraction;
 }
 
+const blobs = new Map([...document.querySelectorAll("script[data-name]")]
+  .map((element) => [element.dataset.name, element]));
+
 async function unpack(name) {
-  const element = document.querySelector(`script[data-name="${CSS.escape(name)}"]`);
+  const element = blobs.get(name);
   const packed = Uint8Array.from(atob(element.textContent), (letter) => letter.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
@@ -60,6 +63,8 @@ const mapOf = remembered((key) => {
   const kind = key.slice(0, key.indexOf(":"));
   return unpackMap(jobs.get(key.slice(kind.length + 1)), kind);
 }, 8);
+const curvesOf = remembered(async (id) =>
+  (jobs.get(id).orders ? JSON.parse(new TextDecoder().decode(await unpack(`curves:${id}`))) : []), 16);
 const tableOf = remembered(async (view) => new Uint16Array((await unpack(`view:${view}`)).buffer), 8);
 
 function element(name, attributes = {}, ...children) {

@@ -119,7 +119,7 @@ function update() {
   byId("full-control").hidden = visible !== "difference";
   byId("exposure-control").hidden = byId("exposure-reset").hidden = mapped;
   byId("channels").hidden = visible.endsWith("flip");
-  byId("orders-control").hidden = !pictured.some((job) => job.curves.length);
+  byId("orders-control").hidden = !pictured.some((job) => job.orders);
   byId("bar").hidden = !mapped;
   if (mapped) drawBar(visible);
   if (visible !== "flicker" && beat) flicker(false);

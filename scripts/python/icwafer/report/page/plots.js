@@ -73,9 +73,16 @@ class Plots {
 
   /** For each line, its points: place on the axis, mean of the measure, jobs. */
   series() {
+    const key = (x, by) => JSON.stringify([x, this.by ? by : null]);
+    const groups = new Map();
+    for (const job of study.jobs) {
+      if (job.measures?.[this.measure] === undefined) continue;
+      const place = key(job.settings[this.x.name], this.by && job.settings[this.by.name]);
+      if (!groups.has(place)) groups.set(place, []);
+      groups.get(place).push(job);
+    }
     return (this.by ? this.by.values : [null]).map((value) => this.x.values.map((x) => {
-      const found = study.jobs.filter((job) => job.measures?.[this.measure] !== undefined
-        && job.settings[this.x.name] === x && (!this.by || job.settings[this.by.name] === value));
+      const found = groups.get(key(x, value)) ?? [];
       const sum = found.reduce((total, job) => total + job.measures[this.measure], 0);
       return { x, y: sum / found.length, found };
     }).filter((point) => point.found.length));

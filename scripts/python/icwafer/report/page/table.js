@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // All jobs with their settings and measures; sorts by any column, filters by words and values.
 
+/** Rows that are drawn at first, and more at each wish: thousands would take seconds. */
+const ROWS = 200;
+
 class JobTable {
   constructor(viewer) {
     this.viewer = viewer;
     this.columns = this.describe();
     this.sorted = { column: null, direction: 1 };
+    this.most = ROWS;
     this.body = element("tbody");
     this.head = element("tr", {}, element("th", { scope: "col" }, "Picture"), ...this.columns.map((column) => {
       const button = element("button", { type: "button" }, column.title);
@@ -14,6 +18,10 @@ class JobTable {
     }));
     byId("jobs").append(element("thead", {}, this.head), this.body);
     byId("filter").addEventListener("input", () => this.fill());
+    byId("more").addEventListener("click", () => {
+      this.most += 5 * ROWS;
+      this.fill();
+    });
     viewer.addEventListener("change", () => this.mark());
     this.fill();
   }
@@ -70,7 +78,9 @@ class JobTable {
       if (sorts) cell.setAttribute("aria-sort", direction > 0 ? "ascending" : "descending");
       else cell.removeAttribute("aria-sort");
     });
-    this.body.replaceChildren(...rows.map((job) => this.row(job)));
+    this.body.replaceChildren(...rows.slice(0, this.most).map((job) => this.row(job)));
+    byId("more").hidden = rows.length <= this.most;
+    byId("more").textContent = `Show more than the first ${this.most}`;
     byId("filter-count").textContent = `${rows.length} of ${study.jobs.length}`;
     this.mark();
   }

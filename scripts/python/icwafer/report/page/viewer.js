@@ -70,6 +70,7 @@ class Viewer extends EventTarget {
       layers = [this.layer(this.a), this.layer(this.b)];
     }
     layers = await Promise.all(layers);
+    this.curves = this.orders ? await Promise.all([this.a, this.b].map(curvesOf)) : null;
     if (turn !== this.drawn) return;
     const two = mode === "side";
     byId("panes").classList.toggle("two", two);
@@ -134,10 +135,9 @@ class Viewer extends EventTarget {
       context.arc(edge, size[1] / 2, 9 * devicePixelRatio, 0, 7);
       context.fill();
     }
-    if (this.orders) {
-      const id = canvas === this.canvases[1] || (this.mode === "flicker" && this.showsB)
-        ? this.b : this.a;
-      drawOrders(context, jobs.get(id).curves, x, y, scale);
+    if (this.curves) {
+      const isB = canvas === this.canvases[1] || (this.mode === "flicker" && this.showsB);
+      drawOrders(context, this.curves[Number(isB)], x, y, scale);
     }
   }
 
