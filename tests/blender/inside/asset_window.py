@@ -17,6 +17,7 @@ from wafer_scene import NODE
 from window import area_of, context_of, in_window
 
 facts: dict[str, Any] = {}
+last_shot = [np.empty(0, dtype=np.float32)]
 
 
 def open_browser() -> None:
@@ -29,17 +30,21 @@ def choose_library() -> None:
 
 
 def shoot_browser() -> bool:
-    """Takes a picture; returns whether previews are still missing in it, which are loaded aside."""
+    """Takes a picture; returns whether it still changes or is grey: previews are loaded aside."""
     region = context_of(area_of("FILE_BROWSER"))["region"]
     png = parameters()["browser_png"]
     bpy.ops.screen.screenshot(filepath=png)
     facts["assets"] = [region.x, region.y, region.x + region.width, region.y + region.height]
     picture = bpy.data.images.load(png)
-    pixels = np.empty(len(picture.pixels), dtype=np.float32)
+    width, height = picture.size
+    pixels = np.empty(4 * width * height, dtype=np.float32)
     picture.pixels.foreach_get(pixels)
     bpy.data.images.remove(picture)
-    # Symbols of files stand in for previews, light grey and large.
-    return bool((pixels.reshape(-1, 4)[:, :3].min(axis=1) > 0.7).mean() > 0.005)
+    left, bottom, right, top = facts["assets"]
+    assets = pixels.reshape(height, width, 4)[bottom:top, left:right, :3].copy()
+    changed = not np.array_equal(assets, last_shot[0])
+    last_shot[:] = [assets]
+    return changed or (np.ptp(assets, axis=2) > 0.25).mean() < 0.01
 
 
 def spacings() -> list[float]:
