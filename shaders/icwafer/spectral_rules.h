@@ -33,7 +33,7 @@ namespace spectral_rule_detail {
 constexpr double begin_nm = 410.0, end_nm = 710.0, uniform_part = 0.7;
 /* Steps between the paths X that a rule is fitted at, and how much more X = 0 counts. */
 constexpr double path_step_nm = 100.0, flat_importance = 30.0;
-constexpr int descent_rounds = 300;
+constexpr int descent_rounds = 800;
 
 /* Wavelengths at (k + 1/2) / count of the cumulative density. */
 inline std::vector<double> quantiles(const ColourTable &sensitivities, const int count)
