@@ -14,6 +14,7 @@ from typing import Any
 
 from icwafer import toml_lines
 from icwafer.errors import IcwaferError, SettingError
+from icwafer.suggest import nearest
 
 FILE_NAME = "materials.toml"
 FORMAT = "icwafer-materials"
@@ -72,7 +73,7 @@ def _preset(
     known = (*_TEXTS, *_FLAGS, "node")
     for key, value in table.items():
         if key not in known:
-            raise document.error((*place, key), f"is unknown: {toml_lines.nearest(key, known)}")
+            raise document.error((*place, key), f"is unknown: {nearest(key, known)}")
         kind, wanted = (
             (str, "a text")
             if key in _TEXTS
