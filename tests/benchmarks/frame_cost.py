@@ -4,7 +4,7 @@
     scripts/icwafer blender -b --factory-startup -P tests/benchmarks/frame_cost.py
 
 Two kinds of frame: a plane under a sky and an area lamp, which the material fills, and the wafer in
-its studio, whose blocks drive the node by attributes. All materials in one run, the best of three
+its studio, whose blocks drive the node by attributes. All materials in one run, the best of two
 rounds.
 """
 
@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "python
 from icwafer.pictures import PICTURES  # noqa: E402
 from icwafer.scene import picture as picture_scene  # noqa: E402
 
-SIZE, SAMPLES, ROUNDS = (320, 240), 16, 3
+SIZE, SAMPLES, ROUNDS = (480, 360), 64, 2
 PRINCIPLED = {"Metallic": 1, "Roughness": 0.3, "Anisotropic": 0.8}
 
 
