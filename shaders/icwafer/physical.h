@@ -154,9 +154,10 @@ constexpr float blue_nm = 420.0f;
 constexpr float gaussian_bandwidth = 3.8f;
 constexpr float lobe_reach = 4.5f;
 constexpr float mirror_reach = 5.5f;
-/* A narrow lobe whose middle is where the eye sees well matters no further than this. */
+/* Under a lamp without lines, a narrow lobe whose middle is where the eye sees well matters no
+ * further than this. */
 constexpr float bright_first_nm = 425.0f, bright_last_nm = 670.0f, bright_sigma_nm = 16.0f;
-constexpr float bright_reach = 3.3f;
+constexpr float bright_lamp_per_nm = 0.6f, bright_reach = 3.3f;
 /* Orders further apart than twice this many standard deviations are told apart. */
 constexpr float apart_reach = 3.0f;
 /* Steps above this are rounded down to whole nanometres. */
@@ -773,8 +774,8 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
         const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
         const float exact_step = step_nm(gaussian_bandwidth / sigma);
         const float step = nodes.whole ? floorf(exact_step) : exact_step;
-        const bool bright = sigma < bright_sigma_nm && centre_nm > bright_first_nm &&
-                            centre_nm < bright_last_nm;
+        const bool bright = lamp_per_nm < bright_lamp_per_nm && sigma < bright_sigma_nm &&
+                            centre_nm > bright_first_nm && centre_nm < bright_last_nm;
         const float reach_nm = (bright ? bright_reach : lobe_reach) * sigma;
         const float count = ceilf(2.0f * reach_nm / step);
         float node = centre_nm - 0.5f * step * (count - 1.0f);
