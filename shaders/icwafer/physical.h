@@ -682,7 +682,8 @@ struct Integrator {
  * with step h is exact for a product of bandwidth below 2 pi / h; what varies is the film with
  * k per nanometre, and a lobe (bandwidth 3.8 / sigma_lambda) or the sensitivities times the lamp,
  * whichever is narrower. Seven tenths of the bandwidth of film and lamp, at which 0.1 % of the
- * amplitude is left, keep the integral within 0.3 %. */
+ * amplitude is left, keep the integral within 0.3 %. Where only film and lamp vary, as for the
+ * mirror order by itself, the fewer wavelengths of a rule (tables.h) do. */
 template<typename Tables>
 ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
                                    const LocalDirection i,
