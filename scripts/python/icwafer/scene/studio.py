@@ -7,7 +7,6 @@ import bpy
 import numpy as np
 
 from icwafer.pictures import Table
-from icwafer.scene.parts import metal_material
 from icwafer.scene.polygons import polygon_mesh
 
 
@@ -24,8 +23,15 @@ def table_object(table: Table) -> bpy.types.Object:
 
 
 def _fading(table: Table) -> bpy.types.Material:
-    material = metal_material("Table", table.colour, table.roughness)
+    # Not a Principled BSDF, which mirrors lamps at grazing light however dark it is.
+    material = bpy.data.materials.new("Table")
+    material.use_nodes = True
     tree = material.node_tree
+    tree.nodes.clear()
+    glossy = tree.nodes.new("ShaderNodeBsdfGlossy")
+    glossy.inputs["Roughness"].default_value = table.roughness
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.location.x = 200
     place = tree.nodes.new("ShaderNodeTexCoord")
     distance = tree.nodes.new("ShaderNodeVectorMath")
     distance.operation = "LENGTH"
@@ -39,9 +45,9 @@ def _fading(table: Table) -> bpy.types.Material:
     colour.inputs[0].default_value = table.colour
     for row, node in enumerate((place, distance, near, colour)):
         node.location = (200 * row - 1000, 0)
-    principled = tree.nodes["Principled BSDF"]
     tree.links.new(place.outputs["Object"], distance.inputs[0])
     tree.links.new(distance.outputs["Value"], near.inputs["Value"])
     tree.links.new(near.outputs["Result"], colour.inputs["Scale"])
-    tree.links.new(colour.outputs["Vector"], principled.inputs["Base Color"])
+    tree.links.new(colour.outputs["Vector"], glossy.inputs["Color"])
+    tree.links.new(glossy.outputs["BSDF"], output.inputs["Surface"])
     return material
