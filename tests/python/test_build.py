@@ -10,6 +10,7 @@ from pathlib import Path
 from support import CommandCase, blender_tree, write
 
 from icwafer import build, packages, paths
+from icwafer.assets import command as assets_command
 from icwafer.errors import IcwaferError
 
 Usage = namedtuple("Usage", "total used free")
@@ -66,8 +67,15 @@ class BuildTest(CommandCase):
 
     def test_blender_is_configured_built_and_installed(self) -> None:
         self.replace(paths, REPOSITORY=self.folder)
+        # After all steps the asset library follows.
+        steps_before_library: list[list[str]] = []
+        self.replace(
+            assets_command,
+            build_library=lambda: steps_before_library.append(self.steps()),
+        )
         status, _, err = self.icwafer("build", f"-DICWAFER_BLENDER_SOURCE={self.tree}")
         self.assertEqual((status, err), (0, ""))
+        self.assertEqual(steps_before_library, [self.steps()])
         configure, compile_host, install = self.steps()
         self.assertIn(f"-DICWAFER_BLENDER_SOURCE={self.tree.resolve()}", configure)
         self.assertEqual(compile_host, f"--build {paths.BUILD}/host")
@@ -137,6 +145,7 @@ class CommandLineTest(CommandCase):
 
     def test_arguments_of_test_go_to_ctest(self) -> None:
         self.replace(build, build=lambda target: None)
+        self.replace(assets_command, build_library=list)
         self.replace(packages, missing=lambda names: [])
         asked = self.folder / "asked"
         self.fake_program("ctest", f'echo "$*" > {asked}; exit 8')
