@@ -32,7 +32,7 @@ class Building(unittest.TestCase):
             (build, "BUILT", root / "assets"),
             (paths, "INSTALLED", self.installed),
             (paths, "BLENDER", self.blender),
-            (build.progress, "run", self._make),
+            (build.render.progress, "run", self._make),
         ):
             patch = mock.patch.object(target, name, value)
             patch.start()
@@ -89,7 +89,7 @@ class Building(unittest.TestCase):
             command[-1].write_text("half")
             raise IcwaferError("no")
 
-        with mock.patch.object(build.progress, "run", fail), self.assertRaises(IcwaferError):
+        with mock.patch.object(build.render.progress, "run", fail), self.assertRaises(IcwaferError):
             self.build()
         self.assertEqual((build.BUILT / "lights.blend").read_text(), before)
         self.assertEqual([p.name for p in build.BUILT.iterdir() if p.name.startswith(".")], [])

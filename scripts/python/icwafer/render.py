@@ -6,6 +6,7 @@ from __future__ import annotations
 import logging
 import os
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
 from icwafer import paths, progress
@@ -36,6 +37,19 @@ def blender() -> Path:
     return Path(named or paths.BLENDER).resolve()
 
 
+def run_script(
+    title: str, program: Path, script: Path, arguments: Sequence[str | Path], log: Path
+) -> None:
+    """Runs a script inside Blender, with its progress under a title. Raises `IcwaferError`."""
+    progress.run(
+        title,
+        [program, "-b", "--factory-startup", "--python-exit-code", "1", "-P", script, "--"]
+        + [*arguments],
+        log,
+        advice="scripts/icwafer doctor checks Blender",
+    )
+
+
 def render(name: str, base: Path) -> tuple[Path, Path]:
     """Renders the picture `name` to `base`.png and `base`.exr, unless both are up to date.
 
@@ -48,23 +62,12 @@ def render(name: str, base: Path) -> tuple[Path, Path]:
         return finished
     unfinished = base.with_name("unfinished") / base.name
     unfinished.parent.mkdir(parents=True, exist_ok=True)
-    progress.run(
+    run_script(
         f"Rendering {name}",
-        [
-            paths.BLENDER,
-            "-b",
-            "--factory-startup",
-            "--python-exit-code",
-            "1",
-            "-P",
-            SCRIPT,
-            "--",
-            name,
-            "--output",
-            unfinished,
-        ],
+        paths.BLENDER,
+        SCRIPT,
+        [name, "--output", unfinished],
         paths.LOGS / f"render-{name}.log",
-        advice="scripts/icwafer doctor checks Blender",
     )
     for path in finished:
         unfinished.with_suffix(path.suffix).replace(path)

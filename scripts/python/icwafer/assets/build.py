@@ -10,7 +10,7 @@ import hashlib
 import shutil
 from pathlib import Path
 
-from icwafer import dependencies, paths, progress, render
+from icwafer import dependencies, paths, render
 from icwafer.assets import catalogs, materials
 from icwafer.assets.plan import KINDS, installed_folder
 from icwafer.errors import IcwaferError
@@ -52,23 +52,12 @@ def _build_kind(kind: str) -> Path:
     if file.is_file() and stamp.is_file() and stamp.read_text() == fingerprint:
         return file
     with replacing(file) as unfinished:
-        progress.run(
+        render.run_script(
             f"Asset library: {kind}",
-            [
-                paths.BLENDER,
-                "-b",
-                "--factory-startup",
-                "--python-exit-code",
-                "1",
-                "-P",
-                SCRIPT,
-                "--",
-                kind,
-                SOURCES,
-                unfinished,
-            ],
+            paths.BLENDER,
+            SCRIPT,
+            [kind, SOURCES, unfinished],
             paths.LOGS / f"assets-{kind}.log",
-            advice="scripts/icwafer doctor checks Blender",
         )
     with replacing(stamp) as unfinished:
         unfinished.write_text(fingerprint)

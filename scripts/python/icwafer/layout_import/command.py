@@ -16,11 +16,8 @@ from icwafer.errors import IcwaferError
 AddAction = Callable[[str, str], argparse.ArgumentParser]
 
 
-def register(add_action: AddAction) -> None:
-    """Adds the action `import`; `add_action` makes a parser from a name and a description."""
-    command = add_action("import", "make a layout from a chip's GDSII, OASIS or DEF file")
-    command.add_argument("file", type=Path, metavar="FILE", help="also compressed, as .gds.gz")
-    command.add_argument("-o", "--output", type=Path, metavar="FILE", help="NAME.layout.toml")
+def add_reading_options(command: argparse.ArgumentParser) -> None:
+    """Adds the options that say how a chip's file is to be understood."""
     command.add_argument(
         "--layers",
         default="sky130",
@@ -31,6 +28,14 @@ def register(add_action: AddAction) -> None:
         "--lef", type=Path, action="append", default=[], metavar="FILE", help="a LEF for a DEF"
     )
     command.add_argument("--top", metavar="CELL", help="the cell to read; default: the top one")
+
+
+def register(add_action: AddAction) -> None:
+    """Adds the action `import`; `add_action` makes a parser from a name and a description."""
+    command = add_action("import", "make a layout from a chip's GDSII, OASIS or DEF file")
+    command.add_argument("file", type=Path, metavar="FILE", help="also compressed, as .gds.gz")
+    command.add_argument("-o", "--output", type=Path, metavar="FILE", help="NAME.layout.toml")
+    add_reading_options(command)
     command.add_argument(
         "--tile",
         type=_length,

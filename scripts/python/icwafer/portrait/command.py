@@ -12,8 +12,9 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from icwafer import packages, paths, progress, render
+from icwafer import packages, paths, render
 from icwafer.errors import IcwaferError
+from icwafer.layout_import.command import add_reading_options
 
 _SCRIPT = Path(__file__).with_name("render.py")
 _SIDES = (16, 8192)
@@ -40,16 +41,7 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         "--samples", type=_samples, default=20, metavar="N", help="paths per pixel; default 20"
     )
     command.add_argument("--exr", action="store_true", help="also write the linear light, as EXR")
-    command.add_argument(
-        "--layers",
-        default="sky130",
-        metavar="PROCESS",
-        help="the process whose layers these are: a built-in one or a layer map, MAP.toml",
-    )
-    command.add_argument(
-        "--lef", type=Path, action="append", default=[], metavar="FILE", help="a LEF for a DEF"
-    )
-    command.add_argument("--top", metavar="CELL", help="the cell to show; default: the top one")
+    add_reading_options(command)
     command.set_defaults(run=_portrait)
 
 
@@ -104,12 +96,12 @@ def _portrait(arguments: argparse.Namespace) -> int:
             exr=str(made[".exr"]) if arguments.exr else "",
             node={"illuminant": "D65", **subject.node},
         ).write(folder / "order.json")
-        progress.run(
+        render.run_script(
             f"Rendering {output.name}",
-            [blender, "-b", "--factory-startup", "--python-exit-code", "1", "-P", _SCRIPT]
-            + ["--", folder / "order.json"],
+            blender,
+            _SCRIPT,
+            [folder / "order.json"],
             paths.LOGS / "portrait.log",
-            advice="scripts/icwafer doctor checks Blender",
         )
         for ending in (".exr", ".png") if arguments.exr else (".png",):
             made[ending].replace(output.with_suffix(ending))
