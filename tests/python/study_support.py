@@ -56,10 +56,10 @@ class StudyCase(unittest.TestCase):
         return out + err
 
     def facts(self, output: Path) -> dict[str, dict[str, Any]]:
-        """What each job says of itself, by its id."""
+        """What each finished job says of itself, by its id; what is in the making begins with "."."""
         return {
             path.parent.name: json.loads(path.read_text())
-            for path in sorted((output / "jobs").glob("*/job.json"))
+            for path in sorted((output / "jobs").glob("[!.]*/job.json"))
         }
 
 
