@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "colour_table.h"
@@ -44,6 +45,58 @@ inline void append_rules(std::vector<float> &tables, const ColourTable &sensitiv
   }
 }
 
+/* Noise of a colour is least where it is sampled in proportion to the root of the mean square of
+ * what it adds; here to the luminance and to the channels, half each. */
+inline double sampling_weight(const std::array<double, 3> &rgb,
+                              const std::array<double, 3> &luminance_weight)
+{
+  double luminance = 0.0, channels = 0.0;
+  for (int c = 0; c < 3; c++) {
+    luminance += luminance_weight[c] * rgb[c];
+    channels += rgb[c] * rgb[c] / 3.0;
+  }
+  return std::sqrt(0.5 * (luminance * luminance + channels));
+}
+
+/* Part of the edges that is spread evenly over the spectrum. */
+constexpr double even_edges_part = 0.5;
+/* Part of the weight beyond the outermost edges, on either side. */
+constexpr double beyond_edges = 0.002;
+
+inline void append_bands(std::vector<float> &tables,
+                         const ColourTable &sensitivities,
+                         const std::array<double, 3> &luminance_weight)
+{
+  /* Weight, and density of edges, up to the end of each nanometre. */
+  std::vector<double> weight, edges;
+  double sum = 0.0;
+  for (const std::array<double, 3> &rgb : sensitivities) {
+    sum += sampling_weight(rgb, luminance_weight);
+    weight.push_back(sum);
+  }
+  for (size_t i = 0; i < weight.size(); i++) {
+    edges.push_back((1.0 - even_edges_part) * weight[i] / sum +
+                    even_edges_part * double(i + 1) / double(weight.size()));
+  }
+  const auto first_above = [](const std::vector<double> &x, const double value) {
+    return int(std::lower_bound(x.begin(), x.end(), value) - x.begin());
+  };
+  const int first = first_above(weight, beyond_edges * sum);
+  const int last = first_above(weight, (1.0 - beyond_edges) * sum);
+  std::vector<int> edge;
+  for (int k = 0; k < band_edge_count; k++) {
+    const double part = double(k) / (band_edge_count - 1);
+    const int cell = first_above(edges, (1.0 - part) * edges[first] + part * edges[last]);
+    edge.push_back(k > 0 ? std::max(cell, edge.back() + 1) : cell);
+  }
+  for (const int cell : edge) {
+    tables.push_back(float(visible_first_nm + cell) + 0.5f);
+  }
+  for (int k = 0; k + 1 < band_edge_count; k++) {
+    tables.push_back(float(weight[edge[k + 1]] - weight[edge[k]]));
+  }
+}
+
 }  // namespace material_tables_detail
 
 inline std::vector<float> material_tables(const XyzToRgb &xyz_to_rgb)
@@ -69,6 +122,9 @@ inline std::vector<float> material_tables(const XyzToRgb &xyz_to_rgb)
   }
   for (const ColourTable &table : sensitivities) {
     append_rules(tables, table);
+  }
+  for (const ColourTable &table : sensitivities) {
+    append_bands(tables, table, colour_table_detail::luminance_weights(xyz_to_rgb));
   }
   return tables;
 }

@@ -4,18 +4,27 @@
  * under the lamp, then the place within the lobe.
  *
  * Because du dv = cos theta d omega, directions are sampled as points of the unit disc. The
- * density of (u, v) is a mixture of the mirror order, of the orders of each axis, each over the
- * two humps that the sum of the three sensitivities has (blue; green and red), and of a tail for
+ * density of (u, v) is a mixture of the mirror order, of the orders of each axis, and of a tail for
  * orders too many to tell apart, which falls off as their power does,
  *
  *   1 / (1 + (m / m_1)^2),  m_1 = 1 / (sqrt(2) pi f).
  *
- * With crossing wires an order (m, n) has its u and its v from one wavelength: u is drawn first,
- * and the v of order n follows from the wavelength that u is of in order m.
+ * Lobes are logistic densities, close to Gaussians but with heavier tails. The spectrum of an
+ * order consists of bands in which it is even (tables.h), each as bright as the sensitivities and
+ * the film in its middle make it. An even band from a to b under a logistic density of scale s is
  *
- * Lobes are logistic densities, close to Gaussians but with heavier tails. A point outside the
- * disc is no direction: a sample that finds none, as in other closures. Evaluation and sampling
- * use this one density. */
+ *   (L((u - a) / s) - L((u - b) / s)) / (b - a),  L(x) = 1 / (1 + exp(-x))
+ *
+ * and the point below which the part t / D of it lies, D = (b - a) / s, is
+ *
+ *   a + s (t + log((1 - exp(-t)) / (1 - exp(t - D)))).
+ *
+ * The order and its u tell the wavelength, which gives the width of v. With crossing wires an order
+ * (m, n) has its u and its v from one wavelength, too: u is drawn first.
+ *
+ * Orders and bands follow each other as their places do, so that samples whose random numbers are
+ * spread evenly spread evenly over colours. A point outside the disc is no direction: a sample that
+ * finds none, as in other closures. Evaluation and sampling use this one density. */
 
 #pragma once
 
@@ -25,9 +34,11 @@ namespace icwafer {
 
 /* What depends on the parameters and the view only. */
 struct PhysicalView {
-  /* Squared difference of the amplitudes at the humps: in the mirror direction, and for the first
-   * order on either side. */
-  float mirror_contrast[2], contrast[2][2];
+  /* Edges of the spectrum's bands, and by how much the density of light over wavelength rises at
+   * each, but for A(m)^2: on the negative and on the positive side. */
+  float edge_nm[band_edge_count], rise[2][band_edge_count];
+  /* Its integral over all bands, and the mean of both sides. */
+  float side_power[2], mean_power;
   /* Power of the mirror order and of all orders together: an estimate of the reflectance. */
   float mirror_power, total_power;
 };
@@ -37,16 +48,28 @@ namespace physical_detail {
 /* Orders that are told apart on either side; beyond them the colours overlap. */
 constexpr int order_limit = 6;
 constexpr float shortest_nm = 400.0f;
-constexpr float mean_nm = 550.0f;
+constexpr float mean_nm = 550.0f, spectrum_sigma_nm = 60.0f;
 /* Where the tail begins, in orders: the blue of the first order beyond the limit. */
 constexpr float tail_begin = 5.0f;
 /* A tail that ends before this is left out. */
 constexpr float tail_least = 6.5f;
+/* How much of the light behind the horizon is sampled. */
+constexpr float hidden_part = 0.05f;
 /* Fits a Gaussian's body best. */
 constexpr float logistic_per_sigma = 0.59f;
+/* Where the density is left out: at 2e-6 of its middle, 13 scales away. */
+constexpr float logistic_reach = 13.0f * logistic_per_sigma;
 
-ICW_DEVICE Lanes logistic_lobes(const Lanes x, const Lanes scale)
+/* L(x). */
+ICW_DEVICE Lanes logistic_part(const Lanes x)
 {
+  const Lanes exponent = -1.44269504f * x;
+  return 1.0f / (1.0f + lanes_exp2(lanes_max(lanes_min(exponent, lanes(60.0f)), lanes(-60.0f))));
+}
+
+ICW_DEVICE Lanes logistic_lobes(const Lanes x, const Lanes sigma)
+{
+  const Lanes scale = logistic_per_sigma * sigma;
   const Lanes t = x / scale;
   const Lanes e = lanes_exp2(lanes_max(-1.44269504f * lanes_max(t, -t), lanes(-60.0f)));
   const Lanes sum = 1.0f + e;
@@ -72,22 +95,34 @@ struct Comb {
   Lattice lattice;
   /* Orders told apart on the negative and on the positive side. */
   int negative, positive;
+  /* How far there are directions on either side. */
+  float open_negative, open_positive;
   /* Where the tails end, in orders of the mean wavelength; tail_begin where there is none. */
   float tail_negative, tail_positive;
   /* Power of A^2 on one side beyond the limit. */
   float tail_power;
 };
 
-/* `view` is the component of the view along the axis. */
-ICW_DEVICE Comb comb(const Lattice lattice, const float view)
+/* `view` is the component of the view along the axis, `other` along the other one. */
+ICW_DEVICE Comb comb(const PhysicalParams &p,
+                     const Lattice lattice,
+                     const Lattice other_lattice,
+                     const float view,
+                     const float other)
 {
-  Comb c = {lattice, 0, 0, tail_begin, tail_begin, 0.0f};
+  Comb c = {lattice, 0, 0, 0.0f, 0.0f, tail_begin, tail_begin, 0.0f};
   if (!(lattice.spacing_nm > 0.0f)) {
     return c;
   }
+  const float sigma = sqrtf(physical_lobe_variance(p, lattice));
+  const float other_sigma = sqrtf(physical_lobe_variance(p, other_lattice));
+  const float radius = sigma +
+                       sqrtf(1.0f - square(larger(fabsf(other) - 2.0f * other_sigma, 0.0f)));
+  c.open_negative = larger(radius - view, 0.0f);
+  c.open_positive = larger(radius + view, 0.0f);
   const float per_order = lattice.spacing_nm / shortest_nm;
-  c.negative = int(smaller((1.0f - view) * per_order, float(order_limit)));
-  c.positive = int(smaller((1.0f + view) * per_order, float(order_limit)));
+  c.negative = int(smaller((c.open_negative + 2.0f * sigma) * per_order, float(order_limit)));
+  c.positive = int(smaller((c.open_positive + 2.0f * sigma) * per_order, float(order_limit)));
   c.tail_negative = larger((1.0f - view) * lattice.spacing_nm / mean_nm, tail_begin);
   c.tail_positive = larger((1.0f + view) * lattice.spacing_nm / mean_nm, tail_begin);
   if (larger(c.tail_negative, c.tail_positive) > tail_least) {
@@ -147,73 +182,143 @@ ICW_DEVICE float tail_point(const Comb &c, const float part)
   return (positive ? order : -order) * mean_nm / c.lattice.spacing_nm;
 }
 
-/* Lobes of a comb, lane_count at a time, at the humps of the sensitivities. */
-struct Humps {
-  Lanes order, mean, scale, power;
+/* The orders of one side of a comb: side 1 the positive ones. Along the wires the spectrum is the
+ * mean of the sides across. */
+struct Side {
+  int count;
+  /* How far there are directions. */
+  float open;
+  /* The parts that the sides across have in the spectrum. */
+  float part[2];
 };
 
-ICW_DEVICE int hump_count(const Comb &c)
+ICW_DEVICE Side comb_side(const Comb &c, const int side)
 {
-  return 2 * (c.negative + c.positive);
+  return {side ? c.positive : c.negative, side ? c.open_positive : c.open_negative, {0.5f, 0.5f}};
 }
 
-/* `contrast[side][hump]`, side 1 for positive orders. */
-ICW_DEVICE_LARGE Humps humps(const PhysicalParams &p,
-                             const Comb &c,
-                             const float contrast[2][2],
-                             const int first)
+ICW_DEVICE Side side_across(const Comb &c, const int side)
 {
-  /* Lanes: order -1 at both humps, -2, ..., then 1, 2, ... */
+  Side result = comb_side(c, side);
+  result.part[0] = side ? 0.0f : 1.0f;
+  result.part[1] = side ? 1.0f : 0.0f;
+  return result;
+}
+
+/* first, first + 1, ... */
+ICW_DEVICE Lanes counted_lanes(const int first)
+{
   float numbers[lane_count];
   for (int lane = 0; lane < lane_count; lane++) {
     numbers[lane] = float(first + lane);
   }
-  const Lanes number = load_lanes(numbers);
-  const Lanes position = lanes_round(0.5f * number - 0.25f);
-  const Lanes second = number - 2.0f * position;
-  const float negative = float(c.negative);
-  const IlluminantHump blue = illuminant_hump(p.illuminant, 0),
-                       red = illuminant_hump(p.illuminant, 1);
-  const auto hump = [&](const float at_blue, const float at_red) {
-    return second > 0.5f ? lanes(at_red) : lanes(at_blue);
-  };
-
-  Humps lobes;
-  lobes.order = position < negative ? -1.0f - position : position - negative + 1.0f;
-  const Lanes nm = hump(blue.mean_nm, red.mean_nm);
-  const Lanes power = position < negative ?
-                          hump(blue.weight * contrast[0][0], red.weight * contrast[0][1]) :
-                          hump(blue.weight * contrast[1][0], red.weight * contrast[1][1]);
-  const Lanes per_nm = lobes.order / c.lattice.spacing_nm;
-  lobes.mean = nm * per_nm;
-  const Lanes spread_nm = hump(blue.sigma_nm, red.sigma_nm) * per_nm;
-  lobes.scale = logistic_per_sigma *
-                lanes_sqrt(lobe_variance(p, c.lattice, nm, lobes.mean) + spread_nm * spread_nm);
-  const Lanes amplitude = order_amplitude(lobes.order, lanes(c.lattice.duty));
-  lobes.power = number < float(hump_count(c)) ? power * amplitude * amplitude : lanes(0.0f);
-  return lobes;
+  return load_lanes(numbers);
 }
 
-ICW_DEVICE float comb_power(const PhysicalParams &p, const Comb &c, const float contrast[2][2])
+/* Where the horizon is at open_nm, of the light beyond little is sampled, right behind it: for the
+ * lobes' edges that come back over it. */
+template<typename Real> ICW_DEVICE Real before_horizon(const Real nm, const float open_nm)
 {
-  float sum = 0.0f;
-  for (int first = 0; first < hump_count(c); first += lane_count) {
-    sum += lanes_sum(humps(p, c, contrast, first).power);
+  const Real behind = (1.0f - hidden_part) * open_nm + hidden_part * nm;
+  return nm < behind ? nm : behind;
+}
+
+/* Power of a band of an order and how far it reaches. */
+struct Band {
+  float begin_nm, end_nm, power;
+};
+
+/* `density` is that in the band before, and becomes that in this one. */
+ICW_DEVICE Band order_band(
+    const PhysicalView &view, const Side &side, const int band, const float per_nm, float &density)
+{
+  density += side.part[0] * view.rise[0][band] + side.part[1] * view.rise[1][band];
+  const float open_nm = side.open / per_nm;
+  const float begin = before_horizon(view.edge_nm[band], open_nm);
+  const float end = before_horizon(view.edge_nm[band + 1], open_nm);
+  return {begin, end, larger(density, 0.0f) * (end - begin)};
+}
+
+/* But for A(m)^2. */
+ICW_DEVICE float spectrum_power(const PhysicalView &view, const Side &side, const float per_nm)
+{
+  if (view.edge_nm[band_count] * per_nm < side.open) {
+    return side.part[0] * view.side_power[0] + side.part[1] * view.side_power[1];
+  }
+  float sum = 0.0f, density = 0.0f;
+  for (int band = 0; band < band_count; band++) {
+    sum += order_band(view, side, band, per_nm, density).power;
   }
   return sum;
 }
 
-/* Mean over sides and humps, for the tails. */
-ICW_DEVICE float mean_contrast(const float contrast[2][2])
+ICW_DEVICE float orders_power(const PhysicalView &view, const Side &side, const Lattice &lattice)
 {
-  return 0.25f * (contrast[0][0] + contrast[0][1] + contrast[1][0] + contrast[1][1]);
+  float sum = 0.0f;
+  for (int first = 1; first <= side.count; first += lane_count) {
+    const Lanes amplitude = order_amplitude(counted_lanes(first), lanes(lattice.duty));
+    for (int lane = 0; lane < lane_count && first + lane <= side.count; lane++) {
+      sum += square(get_lane(amplitude, lane)) *
+             spectrum_power(view, side, float(first + lane) / lattice.spacing_nm);
+    }
+  }
+  return sum;
+}
+
+/* Standard deviation of the lobe of an order, the same for all of its colours. */
+template<typename Real>
+ICW_DEVICE Real order_variance(const PhysicalParams &p, const Lattice &lattice, const Real m)
+{
+  return lobe_variance(p, lattice, Real{} + mean_nm, m * (mean_nm / lattice.spacing_nm));
+}
+
+/* Density over q > 0 of light whose spectrum an order spreads by this much per nanometre. */
+ICW_DEVICE float spectrum_density(
+    const PhysicalView &view, const Side &side, const float q, const float per_nm, const float scale)
+{
+  Lanes sum = lanes(0.0f);
+  const float per_scale = 1.0f / scale, open_nm = side.open / per_nm;
+  for (int first = 0; first < band_edge_count; first += lane_count) {
+    const Lanes rise = side.part[0] * load_lanes(view.rise[0] + first) +
+                       side.part[1] * load_lanes(view.rise[1] + first);
+    const Lanes x = (q - per_nm * before_horizon(load_lanes(view.edge_nm + first), open_nm)) *
+                    per_scale;
+    sum += rise * logistic_part(x);
+  }
+  return larger(lanes_sum(sum), 0.0f) / per_nm;
+}
+
+/* The part of a band of width D, in scales, and of what is beyond: see above. */
+ICW_DEVICE float one_minus_exp(const float x)
+{
+  return x < 0.01f ? x * (1.0f - 0.5f * x) : 1.0f - expf(-x);
+}
+
+ICW_DEVICE float band_point(const float begin, const float end, const float part, const float scale)
+{
+  const float inside = clamped(part, 1e-6f, 1.0f - 1e-6f);
+  const float width = (end - begin) / scale;
+  const float t = inside * width;
+  return begin + scale * (t + logf(one_minus_exp(t) / one_minus_exp((1.0f - inside) * width)));
+}
+
+/* The q > 0 below which the part `part` of the light of an order lies. */
+ICW_DEVICE float spectrum_point(
+    const PhysicalView &view, const Side &side, const float part, const float per_nm, const float scale)
+{
+  float left = part * spectrum_power(view, side, per_nm), density = 0.0f;
+  for (int number = 0;; number++) {
+    const Band band = order_band(view, side, number, per_nm, density);
+    if (left < band.power || number == band_count - 1) {
+      return band_point(per_nm * band.begin_nm, per_nm * band.end_nm, left / band.power, scale);
+    }
+    left -= band.power;
+  }
 }
 
 /* All that evaluation and sampling of the density share for one view. */
 struct Mixture {
   Comb across, along;
-  /* Both sides alike: for orders along the wires the mirror's. */
-  float along_contrast[2][2];
   /* The part of the other axis that is open: the factor of an axis' own orders, and what the
    * orders (m, n) of one m add up to. That of the wires along is divided by, so never 0. */
   float open_across, open_along;
@@ -221,17 +326,11 @@ struct Mixture {
   float sigma_u, sigma_v;
 };
 
-ICW_DEVICE Mixture mixture(const PhysicalParams &p,
-                           const PhysicalView &view,
-                           const LocalDirection o)
+ICW_DEVICE Mixture mixture(const PhysicalParams &p, const LocalDirection o)
 {
   Mixture x;
-  x.across = comb(p.across, o.nu);
-  x.along = comb(p.along, o.tau);
-  for (int hump = 0; hump < 2; hump++) {
-    x.along_contrast[0][hump] = view.mirror_contrast[hump];
-    x.along_contrast[1][hump] = view.mirror_contrast[hump];
-  }
+  x.across = comb(p, p.across, p.along, o.nu, o.tau);
+  x.along = comb(p, p.along, p.across, o.tau, o.nu);
   x.open_across = 1.0f - p.across.duty;
   x.open_along = p.along.spacing_nm > 0.0f ? larger(1.0f - p.along.duty, 1e-6f) : 1.0f;
   x.sigma_u = sqrtf(physical_lobe_variance(p, p.across));
@@ -263,10 +362,11 @@ ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
                                    const float wavelength_nm,
                                    const float relative)
 {
+  const float sigma_0 = row_sigma(p, wavelength_nm, 0.0f, 0.0f);
   if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_density(v, x.sigma_v);
+    return logistic_density(v, sigma_0);
   }
-  float sum = x.open_along * logistic_density(v, x.sigma_v);
+  float sum = x.open_along * logistic_density(v, sigma_0);
   float left = p.along.duty;
   const float per_order = wavelength_nm / p.along.spacing_nm;
   for (int n = 1; n <= order_limit; n++) {
@@ -287,12 +387,13 @@ ICW_DEVICE float row_point(const PhysicalParams &p,
                            const float wavelength_nm,
                            const float relative)
 {
+  const float sigma_0 = row_sigma(p, wavelength_nm, 0.0f, 0.0f);
   if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_point(random, x.sigma_v);
+    return logistic_point(random, sigma_0);
   }
   float left = random - x.open_along;
   if (left < 0.0f) {
-    return logistic_point(random / x.open_along, x.sigma_v);
+    return logistic_point(random / x.open_along, sigma_0);
   }
   const float per_order = wavelength_nm / p.along.spacing_nm;
   float rest = p.along.duty;
@@ -313,18 +414,99 @@ ICW_DEVICE float row_point(const PhysicalParams &p,
   return row_tail_scale(per_order) * tanf(pi * (part - 0.5f));
 }
 
-/* Wavelength that u is of in order m, and how well u tells it. */
-struct RowWavelength {
-  float nm, relative;
+/* How well u tells the wavelength of an order. */
+ICW_DEVICE float row_relative(const PhysicalParams &p,
+                              const Mixture &x,
+                              const float m,
+                              const float wavelength_nm)
+{
+  return x.sigma_u * p.across.spacing_nm / (m * wavelength_nm);
+}
+
+/* Wavelength that order m has at q > 0; the less a lobe of width sigma tells it, the nearer to the
+ * mean. */
+template<typename Real>
+ICW_DEVICE Real order_wavelength(const PhysicalView &view,
+                                 const Lattice &lattice,
+                                 const Real m,
+                                 const float q,
+                                 const float sigma)
+{
+  const Real nm_per_q = lattice.spacing_nm / m;
+  const Real unknown = (sigma / spectrum_sigma_nm) * nm_per_q;
+  const Real nm = mean_nm + (q * nm_per_q - mean_nm) / (1.0f + unknown * unknown);
+  const float least = view.edge_nm[0], most = view.edge_nm[band_count];
+  return nm > least ? (nm < most ? nm : Real{} + most) : Real{} + least;
+}
+
+/* Orders of a side whose lobes reach q. */
+struct OrderRange {
+  int first, last;
 };
 
-ICW_DEVICE RowWavelength row_wavelength(const PhysicalParams &p,
-                                        const Mixture &x,
-                                        const float u,
-                                        const float order)
+ICW_DEVICE OrderRange orders_near(const PhysicalParams &p,
+                                  const PhysicalView &view,
+                                  const Lattice &lattice,
+                                  const Side &side,
+                                  const float q)
 {
-  const float nm = clamped(u * p.across.spacing_nm / order, shortest_nm, 700.0f);
-  return {nm, x.sigma_u * p.across.spacing_nm / (fabsf(order) * nm)};
+  const float reach = logistic_reach * sqrtf(order_variance(p, lattice, 0.0f));
+  const float spread_nm = logistic_reach * p.variation * mean_nm;
+  const float least_nm = view.edge_nm[0] - spread_nm;
+  const float most_nm = view.edge_nm[band_count] + spread_nm;
+  const float count = float(side.count);
+  const float least = (q - reach) * lattice.spacing_nm / most_nm;
+  float most = least_nm > 0.0f ? (q + reach) * lattice.spacing_nm / least_nm : count;
+  /* Those behind the horizon are not where their wavelengths say. */
+  const float behind = q + reach - (1.0f - hidden_part) * side.open;
+  if (behind + count * spread_nm / lattice.spacing_nm > 0.0f) {
+    most = spread_nm > 0.0f ?
+               count :
+               larger(most, behind / hidden_part * lattice.spacing_nm / least_nm);
+  }
+  return {int(ceilf(clamped(least, 1.0f, count + 1.0f))),
+          q + reach > 0.0f ? int(smaller(most, count)) : 0};
+}
+
+/* Density of the orders of one side, q > 0 there, and `other` across it. `rows`: each is a row of
+ * orders of the wires along. */
+ICW_DEVICE_LARGE float side_density(const PhysicalParams &p,
+                                    const PhysicalView &view,
+                                    const Mixture &x,
+                                    const Side &side,
+                                    const Lattice &lattice,
+                                    const Lattice &other_lattice,
+                                    const float q,
+                                    const float other,
+                                    const bool rows)
+{
+  const OrderRange range = orders_near(p, view, lattice, side, q);
+  const float sigma = sqrtf(physical_lobe_variance(p, lattice));
+  float sum = 0.0f;
+  for (int first = range.first; first <= range.last; first += lane_count) {
+    const Lanes m = counted_lanes(first);
+    const Lanes amplitude = order_amplitude(m, lanes(lattice.duty));
+    const Lanes scale = logistic_per_sigma * lanes_sqrt(order_variance(p, lattice, m));
+    const Lanes nm = order_wavelength(view, lattice, m, q, sigma);
+    Lanes power = amplitude * amplitude;
+    if (!rows) {
+      power *= logistic_lobes(
+          lanes(other), lanes_sqrt(lobe_variance(p, other_lattice, nm, lanes(0.0f))));
+    }
+    for (int lane = 0; lane < lane_count && first + lane <= range.last; lane++) {
+      const float order = float(first + lane);
+      float density = get_lane(power, lane) *
+                      spectrum_density(
+                          view, side, q, order / lattice.spacing_nm, get_lane(scale, lane));
+      if (rows && density > 0.0f) {
+        const float wavelength_nm = get_lane(nm, lane);
+        density *= row_density(
+            p, x, other, wavelength_nm, row_relative(p, x, order, wavelength_nm));
+      }
+      sum += density;
+    }
+  }
+  return sum;
 }
 
 }  // namespace physical_detail
@@ -337,18 +519,20 @@ ICW_DEVICE_LARGE PhysicalView physical_view(const PhysicalParams &p,
 {
   using namespace physical_detail;
   PhysicalView view = {};
-  /* Lanes: the mirror order, the first order on the negative and on the positive side, each at
-   * both humps. */
-  constexpr int used = 6;
-  float power[2] = {0.0f, 0.0f};
+  for (int edge = 0; edge < band_edge_count; edge++) {
+    view.edge_nm[edge] = tables.band_edge_nm(p.illuminant, edge);
+  }
+  /* Lanes: the first order on the negative and on the positive side, in every other band. */
+  constexpr int nodes = 4;
+  float contrast[2][nodes];
   const float ridge_part = covered(p.across, p.along);
-  for (int first = 0; first < used; first += lane_count) {
+  for (int first = 0; first < 2 * nodes; first += lane_count) {
     float cosine[lane_count], wavelength[lane_count], n[lane_count], k[lane_count];
     for (int lane = 0; lane < lane_count; lane++) {
-      const int index = first + lane < used ? first + lane : 0;
-      const int hump = index % 2, side = index / 2 == 0 ? 0 : 2 * (index / 2) - 3;
-      const float nm = illuminant_hump(p.illuminant, hump).mean_nm;
-      const float out = -o.nu + float(side) * nm / p.across.spacing_nm;
+      const int index = first + lane, band = 2 * (index % nodes);
+      const float side = float(2 * (index / nodes) - 1);
+      const float nm = 0.5f * (view.edge_nm[band] + view.edge_nm[band + 1]);
+      const float out = side * nm / p.across.spacing_nm - o.nu;
       cosine[lane] = larger(0.5f * (o.n + sqrtf(larger(1.0f - square(out) - square(o.tau), 0.0f))),
                             1e-4f);
       wavelength[lane] = nm;
@@ -366,30 +550,33 @@ ICW_DEVICE_LARGE PhysicalView physical_view(const PhysicalParams &p,
                                      per_nm);
     const Lanes mirror = ridge_part * r.ridge + (1.0f - ridge_part) * r.groove -
                          ridge_part * (1.0f - ridge_part) * r.contrast;
-    for (int lane = 0; lane < lane_count && first + lane < used; lane++) {
-      const int index = first + lane, hump = index % 2;
-      /* A little of each order is always sampled: what is dark at the humps need not be so
-       * between them. */
-      const float contrast = get_lane(r.contrast, lane) + 0.05f;
-      if (index < 2) {
-        view.mirror_contrast[hump] = contrast;
-        power[hump] = get_lane(mirror, lane) + 0.01f;
-      }
-      else {
-        view.contrast[index / 2 - 1][hump] = contrast;
-      }
+    for (int lane = 0; lane < lane_count; lane++) {
+      const int index = first + lane;
+      /* A little of each order is always sampled: what is dark here need not be so between. */
+      contrast[index / nodes][index % nodes] = get_lane(r.contrast, lane) + 0.05f;
+      view.mirror_power += (get_lane(mirror, lane) + 0.01f) / float(2 * nodes);
     }
   }
-  const float blue = illuminant_hump(p.illuminant, 0).weight;
-  view.mirror_power = blue * power[0] + (1.0f - blue) * power[1];
+  for (int side = 0; side < 2; side++) {
+    for (int band = 0; band < band_count; band++) {
+      const float power = tables.band_weight(p.illuminant, band) * 0.5f *
+                          (contrast[side][band / 2] + contrast[side][(band + 1) / 2]);
+      const float density = power / (view.edge_nm[band + 1] - view.edge_nm[band]);
+      view.rise[side][band] += density;
+      view.rise[side][band + 1] -= density;
+      view.side_power[side] += power;
+    }
+  }
+  view.mean_power = 0.5f * (view.side_power[0] + view.side_power[1]);
 
-  const Mixture x = mixture(p, view, o);
-  view.total_power = view.mirror_power +
-                     x.open_along * (comb_power(p, x.across, view.contrast) +
-                                     tail_total(x.across) * mean_contrast(view.contrast)) +
-                     square(x.open_across) *
-                         (comb_power(p, x.along, x.along_contrast) +
-                          tail_total(x.along) * mean_contrast(x.along_contrast));
+  const Mixture x = mixture(p, o);
+  float across = tail_total(x.across) * view.mean_power;
+  float along = tail_total(x.along) * view.mean_power;
+  for (int side = 0; side < 2; side++) {
+    across += orders_power(view, side_across(x.across, side), p.across);
+    along += orders_power(view, comb_side(x.along, side), p.along);
+  }
+  view.total_power = view.mirror_power + x.open_along * across + square(x.open_across) * along;
   return view;
 }
 
@@ -400,40 +587,43 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
                                     const LocalDirection i)
 {
   using namespace physical_detail;
-  const Mixture x = mixture(p, view, o);
+  const Mixture x = mixture(p, o);
   const float u = i.nu + o.nu, v = i.tau + o.tau;
   const bool cross = p.along.spacing_nm > 0.0f;
   const float mirror_u = logistic_density(u, x.sigma_u);
-  float sum = view.mirror_power * mirror_u * logistic_density(v, x.sigma_v);
-
-  float rows = 0.0f;
-  for (int first = 0; first < hump_count(x.across); first += lane_count) {
-    const Humps lobes = humps(p, x.across, view.contrast, first);
-    const Lanes density = lobes.power * logistic_lobes(u - lobes.mean, lobes.scale);
-    if (!cross) {
-      rows += lanes_sum(density);
-      continue;
-    }
-    for (int lane = 0; lane < lane_count; lane++) {
-      if (get_lane(density, lane) > 0.0f) {
-        const RowWavelength row = row_wavelength(p, x, u, get_lane(lobes.order, lane));
-        rows += get_lane(density, lane) * row_density(p, x, v, row.nm, row.relative);
-      }
+  float across = tail_density(x.across, u) * view.mean_power;
+  if (across > 0.0f) {
+    across *= row_density(p, x, v, mean_nm, 0.2f);
+  }
+  float along = 0.0f;
+  for (int side = 0; side < 2; side++) {
+    const float sign = side ? 1.0f : -1.0f;
+    across += side_density(p,
+                           view,
+                           x,
+                           side_across(x.across, side),
+                           p.across,
+                           p.along,
+                           sign * u,
+                           v,
+                           cross);
+    if (cross) {
+      along += side_density(p,
+                            view,
+                            x,
+                            comb_side(x.along, side),
+                            p.along,
+                            p.across,
+                            sign * v,
+                            u,
+                            false);
     }
   }
-  const float tail = tail_density(x.across, u) * mean_contrast(view.contrast);
-  if (!cross) {
-    sum += (rows + tail) * logistic_density(v, x.sigma_v);
+  if (cross) {
+    along += tail_density(x.along, v) * view.mean_power * mirror_u;
   }
-  else {
-    sum += x.open_along * (rows + tail * row_density(p, x, v, mean_nm, 0.2f));
-    float along = tail_density(x.along, v) * mean_contrast(x.along_contrast);
-    for (int first = 0; first < hump_count(x.along); first += lane_count) {
-      const Humps lobes = humps(p, x.along, x.along_contrast, first);
-      along += lanes_sum(lobes.power * logistic_lobes(v - lobes.mean, lobes.scale));
-    }
-    sum += square(x.open_across) * along * mirror_u;
-  }
+  const float sum = view.mirror_power * mirror_u * logistic_density(v, x.sigma_v) +
+                    x.open_along * across + square(x.open_across) * along;
   return sum / view.total_power * i.n;
 }
 
@@ -445,58 +635,75 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
                                                 const float random_along)
 {
   using namespace physical_detail;
-  const Mixture x = mixture(p, view, o);
+  const Mixture x = mixture(p, o);
   float u = 0.0f, v = 0.0f;
 
-  /* Choose a lobe by its power; what is left of the random number chooses the place in it. */
+  /* Choose a lobe by its power, in the order of their places; what is left of the random number
+   * chooses the place in it. */
   float left = random_across * view.total_power;
-  const float across_tail = x.open_along * tail_total(x.across) * mean_contrast(view.contrast);
-  const float along_tail = square(x.open_across) * tail_total(x.along) *
-                           mean_contrast(x.along_contrast);
   bool found = false;
-  if (left < view.mirror_power) {
+  const auto choose_order = [&](const bool is_across, const int side) {
+    const Lattice &lattice = is_across ? p.across : p.along;
+    const Side orders = is_across ? side_across(x.across, side) :
+                                    comb_side(x.along, side);
+    const float scale = is_across ? x.open_along : square(x.open_across);
+    const float sigma = is_across ? x.sigma_u : x.sigma_v;
+    for (int k = 1; k <= orders.count && !found; k++) {
+      const int m = side ? k : orders.count + 1 - k;
+      const float power = scale * square(sinf(pi * float(m) * lattice.duty) / (pi * float(m))) *
+                          spectrum_power(view, orders, float(m) / lattice.spacing_nm);
+      if (left < power) {
+        const float part = left / power, order = float(m), sign = side ? 1.0f : -1.0f;
+        const float q = spectrum_point(view,
+                                       orders,
+                                       side ? part : 1.0f - part,
+                                       order / lattice.spacing_nm,
+                                       logistic_per_sigma *
+                                           sqrtf(order_variance(p, lattice, order)));
+        const float wavelength_nm = order_wavelength(view, lattice, order, q, sigma);
+        if (is_across) {
+          u = sign * q;
+          v = row_point(
+              p, x, random_along, wavelength_nm, row_relative(p, x, order, wavelength_nm));
+        }
+        else {
+          v = sign * q;
+          u = logistic_point(random_along,
+                             sqrtf(lobe_variance(p, p.across, wavelength_nm, 0.0f)));
+        }
+        found = true;
+      }
+      left -= power;
+    }
+  };
+  choose_order(true, 0);
+  if (!found && left < view.mirror_power) {
     u = logistic_point(left / view.mirror_power, x.sigma_u);
     v = logistic_point(random_along, x.sigma_v);
     found = true;
   }
   left -= view.mirror_power;
+  if (!found) {
+    choose_order(true, 1);
+  }
+  const float across_tail = x.open_along * tail_total(x.across) * view.mean_power;
   if (!found && left < across_tail) {
     u = tail_point(x.across, left / across_tail);
     v = row_point(p, x, random_along, mean_nm, 0.2f);
     found = true;
   }
   left -= across_tail;
+  if (!found) {
+    choose_order(false, 0);
+  }
+  if (!found) {
+    choose_order(false, 1);
+  }
+  const float along_tail = square(x.open_across) * tail_total(x.along) * view.mean_power;
   if (!found && left < along_tail) {
     v = tail_point(x.along, left / along_tail);
     u = logistic_point(random_along, x.sigma_u);
     found = true;
-  }
-  left -= along_tail;
-  for (int axis = 0; axis < 2 && !found; axis++) {
-    const Comb &c = axis == 0 ? x.across : x.along;
-    const float scale = axis == 0 ? x.open_along : square(x.open_across);
-    for (int first = 0; first < hump_count(c) && !found; first += lane_count) {
-      const Humps lobes = humps(p, c, axis == 0 ? view.contrast : x.along_contrast, first);
-      for (int lane = 0; lane < lane_count && !found; lane++) {
-        const float power = scale * get_lane(lobes.power, lane);
-        if (left < power) {
-          const float q = get_lane(lobes.mean, lane) +
-                          logistic_point(left / power,
-                                         get_lane(lobes.scale, lane) / logistic_per_sigma);
-          if (axis == 0) {
-            const RowWavelength row = row_wavelength(p, x, q, get_lane(lobes.order, lane));
-            u = q;
-            v = row_point(p, x, random_along, row.nm, row.relative);
-          }
-          else {
-            v = q;
-            u = logistic_point(random_along, x.sigma_u);
-          }
-          found = true;
-        }
-        left -= power;
-      }
-    }
   }
 
   const float nu = u - o.nu, tau = v - o.tau;

@@ -6,7 +6,8 @@
  *   visible range,
  * - for each metal the index {n, k} at each nanometre,
  * - for each lamp the quadrature rules (spectral_rules.h), each in rows as long as it has nodes:
- *   wavelength; weights of red, green, blue; n and k of each metal.
+ *   wavelength; weights of red, green, blue; n and k of each metal,
+ * - for each lamp the bands of the spectrum for sampling: their edges, and the weight of each.
  *
  * `material_tables` (material_tables.h) makes them. */
 
@@ -45,7 +46,13 @@ ICW_DEVICE constexpr int rule_first_node(const int rule)
 }
 
 constexpr int rules_size = rule_rows * (8 + 16 + 24);
-constexpr int material_tables_size = rule_tables_offset + illuminant_count * rules_size;
+constexpr int band_tables_offset = rule_tables_offset + illuminant_count * rules_size;
+
+/* Bands in which sampling takes the spectrum of a lamp as even: narrow where the eye sees much. */
+constexpr int band_count = 7, band_edge_count = band_count + 1;
+constexpr int bands_size = band_edge_count + band_count;
+
+constexpr int material_tables_size = band_tables_offset + illuminant_count * bands_size;
 
 ICW_DEVICE constexpr int metal_index(const Metal metal, const int cell)
 {
@@ -106,6 +113,17 @@ struct MaterialTables {
   {
     return load_lanes(read(rule_tables_offset + int(illuminant) * rules_size +
                            rule_rows * rule_first_node(rule) + row * rule_nodes(rule) + node));
+  }
+
+  ICW_DEVICE_METHOD float band_edge_nm(const Illuminant illuminant, const int edge) const
+  {
+    return *read(band_tables_offset + int(illuminant) * bands_size + edge);
+  }
+
+  /* What a sample of the band counts: for luminance and for the channels. */
+  ICW_DEVICE_METHOD float band_weight(const Illuminant illuminant, const int band) const
+  {
+    return *read(band_tables_offset + int(illuminant) * bands_size + band_edge_count + band);
   }
 
   /* Sensitivity at a wavelength, under light of equal energy. */
