@@ -11,7 +11,7 @@ move (tests/benchmarks/wafer_scale.py).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Generator, Sequence
 
 import bpy
 import numpy as np
@@ -30,8 +30,6 @@ from icwafer.scene.polygons import add_attribute, polygon_mesh
 
 #: The node group that puts dies on points, one for all wafers of a file.
 GROUP = "IC Wafer Dies"
-#: Told now and then how far the work is, 0 to 1.
-Progress = Callable[[float], None]
 
 
 def add_wafer(
@@ -40,53 +38,63 @@ def add_wafer(
     parts: Parts,
     name: str = "Wafer",
     gap_nm: float = GAP_NM,
-    progress: Progress = lambda _: None,
 ) -> bpy.types.Object:
-    """Links a wafer full of dies, as one object, to a collection.
+    """Links a wafer full of dies, as one object, to a collection; see `wafer_in_steps`."""
+    steps = wafer_in_steps(layout, collection, parts, name, gap_nm)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def wafer_in_steps(
+    layout: Layout,
+    collection: bpy.types.Collection,
+    parts: Parts,
+    name: str = "Wafer",
+    gap_nm: float = GAP_NM,
+    display: str = "BOUNDS",
+) -> Generator[float, None, bpy.types.Object]:
+    """Links a wafer full of dies, as one object, to a collection. Yields how much is done, 0 to 1.
 
     The front lies in the plane z = 0 in mm, the wafer's centre is the origin, notch or flat at -y.
-    Raises IcwaferError where the layout has no wafer.
+    display: how viewports that do not render show the dies, as Blender's `display_type`; there are
+    millions of blocks on a wafer. Raises IcwaferError where the layout has no wafer.
     """
     if layout.wafer is None:
         raise IcwaferError("the layout has no wafer: give it a table [wafer]")
     places = place_dies(layout)
-    kinds, kind_of = _die_kinds(layout, places, parts, gap_nm, progress)
+    meshes: list[bpy.types.Mesh] = []
+    kind_of = yield from _die_meshes(meshes, layout, places, gap_nm)
     mesh = _disc_mesh(name, layout, places, kind_of)
     for material in (parts.silicon, parts.lane):
         mesh.materials.append(material)
     wafer = bpy.data.objects.new(name, mesh)
-    collection.objects.link(wafer)
     dies = bpy.data.collections.new(f"{name} dies")
-    for die in kinds:
+    for number, shape in enumerate(meshes):
+        for material in (parts.blocks, parts.ground):
+            shape.materials.append(material)
+        # Geometry nodes pick by place in alphabetical order.
+        die = bpy.data.objects.new(f"Die {number:05}", shape)
+        die.display_type = display
         dies.objects.link(die)
     modifier = wafer.modifiers.new("Dies", "NODES")
     modifier.node_group = _instancing_group()
     modifier[modifier.node_group.inputs["Dies"].identifier] = dies
-    progress(1.0)
+    collection.objects.link(wafer)
     return wafer
 
 
-def _die_kinds(
-    layout: Layout,
-    places: WaferMap,
-    parts: Parts,
-    gap_nm: float,
-    progress: Progress,
-) -> tuple[list[bpy.types.Object], np.ndarray]:
-    """An object for each different die, and for each place the index of its object.
+def _die_meshes(
+    meshes: list[bpy.types.Mesh], layout: Layout, places: WaferMap, gap_nm: float
+) -> Generator[float, None, np.ndarray]:
+    """Appends a mesh for each different die. Returns for each place the index of its mesh.
 
     Every design is one; every partial die is another, for each one is cut elsewhere. Nothing is
     made for partial dies of which nothing is left; their index is -1.
     """
-    kinds: list[bpy.types.Object] = []
     kind_of = np.full(len(places), -1)
-
-    def add(mesh: bpy.types.Mesh) -> None:
-        for material in (parts.blocks, parts.ground):
-            mesh.materials.append(material)
-        # Geometry nodes pick by place in alphabetical order.
-        kinds.append(bpy.data.objects.new(f"Die {len(kinds):05}", mesh))
-
     partial = np.flatnonzero(places.partial)
     steps = len(layout.dies) + len(partial)
     for design, spec in enumerate(layout.dies):
@@ -96,17 +104,17 @@ def _die_kinds(
             continue
         die = generate(spec)
         if complete.any():
-            kind_of[complete] = len(kinds)
-            add(die_mesh(die, gap_nm, ground=True))
-        progress((design + 1) / (steps + 1))
+            kind_of[complete] = len(meshes)
+            meshes.append(die_mesh(die, gap_nm, ground=True))
+        yield (design + 1) / (steps + 1)
         faces = block_faces_mm(die, gap_nm) if here else None
         for done, index in enumerate(here):
             mesh = _partial_mesh(die, faces, gap_nm, places.centre_mm[index], layout.wafer)
             if mesh:
-                kind_of[index] = len(kinds)
-                add(mesh)
-            progress((design + 1 + done) / (steps + 1))
-    return kinds, kind_of
+                kind_of[index] = len(meshes)
+                meshes.append(mesh)
+            yield (design + 1 + done) / (steps + 1)
+    return kind_of
 
 
 def _partial_mesh(
