@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Generator, Iterator
-from functools import partial
 from typing import TypeVar
 
 import bpy
@@ -58,11 +57,10 @@ def all_or_nothing() -> Iterator[None]:
 class InSteps:
     """An operator whose work can go on in steps, while its user does something else; Esc cancels.
 
-    `steps` is the work, of which `doing` says what it is at, and `alone` that nothing else may
-    happen meanwhile: when it makes things, which undo would take from under it.
+    `steps` is the work. It sets `doing`, what it is at, and `alone` while nothing else may happen:
+    when it makes things, which undo would take from under it.
     """
 
-    doing = ""
     alone = False
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
@@ -72,8 +70,10 @@ class InSteps:
     def start(self, context: bpy.types.Context) -> set[str]:
         """Begins the work; `modal` goes on with it."""
         manager = context.window_manager
-        self._work, self._shown = self.steps(context), ""
+        self._work, self._done, self._shown = self.steps(context), 0.0, ""
         self._timer = manager.event_timer_add(_TICK_S, window=context.window)
+        self.doing = self.bl_label
+        self._show(context)
         manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -104,18 +104,21 @@ class InSteps:
                     done = next(self._work)
                     if done is None:
                         break
-                    self._show(context, f"{self.doing}: {done:.0%}")
+                    self._done = done
             except StopIteration:
                 return {"FINISHED"}
+            self._show(context)
         return {"RUNNING_MODAL" if self.alone else "PASS_THROUGH"}
 
-    def _show(self, context: bpy.types.Context, text: str) -> None:
+    def _show(self, context: bpy.types.Context) -> None:
+        text = f"{self.doing}: {self._done:.0%}"
+
+        def draw(header: bpy.types.Header, _context: bpy.types.Context) -> None:
+            row = header.layout.row(align=True)
+            row.label(text=text, icon="IMPORT")
+            row.label(text="Cancel", icon="EVENT_ESC")
+
         if text != self._shown:
-            context.workspace.status_text_set(partial(_draw_status, text))
             self._shown = text
-
-
-def _draw_status(text: str, header: bpy.types.Header, _context: bpy.types.Context) -> None:
-    row = header.layout.row(align=True)
-    row.label(text=text, icon="IMPORT")
-    row.label(text="Cancel", icon="EVENT_ESC")
+            # Blender crashes on what is callable but no function, as of functools.partial.
+            context.workspace.status_text_set(draw)
