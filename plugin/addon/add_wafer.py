@@ -38,8 +38,8 @@ class WaferOptions:
         ],
     )
     edge_exclusion_mm: FloatProperty(
-        name="Edge Exclusion (mm)",
-        description="Rim without dies in mm",
+        name="Edge Excl. (mm)",
+        description="Edge exclusion: rim without dies, in mm",
         default=3.0,
         min=0.0,
         max=30.0,
@@ -85,9 +85,9 @@ class WaferOptions:
         description="What viewports show of the dies, unless they render with Cycles. Renders show "
         "all of it anyway",
         items=[
-            ("BOUNDS", "Outlines", "Outlines of the dies: quick on any machine"),
-            ("TEXTURED", "Blocks", "All blocks of all dies, often millions: slow without a "
-             "graphics card"),
+            ("PLATES", "Plates", "A plate for each die: quick on any machine"),
+            ("BLOCKS", "Blocks", "All blocks of all dies, often millions: slow without a graphics "
+             "card"),
         ],
     )
 
@@ -124,7 +124,12 @@ class WaferOptions:
             ),
         )
         thing = yield from wafer_in_steps(
-            layout, context.collection, self.parts(), name, gap_nm(dies[0]), self.viewport
+            layout,
+            context.collection,
+            self.parts(),
+            name,
+            gap_nm(dies[0]),
+            plates=self.viewport == "PLATES",
         )
         self.place(context, thing, layout.wafer.diameter_mm, main_direction_rad(generate(dies[0])))
 

@@ -225,7 +225,9 @@ class ChipOptions(PlacingOptions):
         """The panel's part on the groups, folded or not."""
         layout.use_property_split = False
         icon = "TRIA_DOWN" if self.show_groups else "TRIA_RIGHT"
-        layout.prop(self, "show_groups", icon=icon, emboss=False)
+        row = layout.row()
+        row.alignment = "LEFT"
+        row.prop(self, "show_groups", icon=icon, emboss=False)
         if not self.show_groups:
             return
         for group in self.groups:

@@ -79,6 +79,13 @@ class AddOnWindow(unittest.TestCase):
         self.assertNotEqual(seed, self.faces("die"))
         self.assertEqual(preset, {"IC Die": len(generate(PRESETS["dram"].dies[0])) + 1})
 
+    def test_redo_of_one_die_leaves_the_other_as_it_is(self) -> None:
+        first, second = self.facts["two dies"].items()
+        self.assertEqual(first[1], second[1], "they share their material")
+        changed = self.facts["other metal"]
+        self.assertEqual(changed[first[0]], first[1])
+        self.assertEqual((first[1][1], changed[second[0]][1]), ("COPPER", "ALUMINIUM"))
+
     def test_a_refused_number_leaves_what_was_there(self) -> None:
         self.assertEqual(self.facts["refused"], self.facts["other preset"])
 

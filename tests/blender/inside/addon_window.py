@@ -119,6 +119,28 @@ def add_wafer() -> None:
         )  # True: with a step of undo, as from a menu
 
 
+def add_die() -> None:
+    with bpy.context.temp_override(**in_view()):
+        bpy.ops.mesh.ic_die_add("INVOKE_DEFAULT", True, preset="bar-memory")
+
+
+def tell_metals(name: str) -> Step:
+    """Remembers the material of each die, and the metal in it."""
+
+    def tell() -> None:
+        materials = {
+            thing.name: thing.data.materials[0]
+            for thing in bpy.context.scene.objects
+            if thing.name.startswith("IC Die")
+        }
+        facts[name] = {
+            die: [material.name, material.node_tree.nodes["IC Wafer BSDF"].metal]
+            for die, material in materials.items()
+        }
+
+    return tell
+
+
 def choose_file() -> None:
     """In the file browser, which is another window."""
     window = bpy.context.window_manager.windows[-1]
@@ -268,6 +290,11 @@ in_window(
     lambda: edit_mode(False),
     until(lambda: status() == ""),
     tell_import("after edit mode"),
+    add_die,
+    add_die,
+    tell_metals("two dies"),
+    lambda: redo(metal="ALUMINIUM"),
+    tell_metals("other metal"),
     lambda: report(facts),
     pause_s=parameters()["pause_s"],
 )

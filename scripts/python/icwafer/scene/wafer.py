@@ -26,7 +26,8 @@ from icwafer.errors import IcwaferError
 from icwafer.scene.material import DRIFTS
 from icwafer.scene.mesh import GAP_NM, STEP_MM, block_faces_mm, die_mesh
 from icwafer.scene.parts import Parts
-from icwafer.scene.polygons import add_attribute, polygon_mesh
+from icwafer.scene.polygons import add_attribute, at_height, loose_faces, polygon_mesh
+from icwafer.scene.stand_in import stand_in
 
 #: The node group that puts dies on points, one for all wafers of a file.
 GROUP = "IC Wafer Dies"
@@ -38,9 +39,10 @@ def add_wafer(
     parts: Parts,
     name: str = "Wafer",
     gap_nm: float = GAP_NM,
+    plates: bool = True,
 ) -> bpy.types.Object:
     """Links a wafer full of dies, as one object, to a collection; see `wafer_in_steps`."""
-    steps = wafer_in_steps(layout, collection, parts, name, gap_nm)
+    steps = wafer_in_steps(layout, collection, parts, name, gap_nm, plates)
     while True:
         try:
             next(steps)
@@ -54,31 +56,35 @@ def wafer_in_steps(
     parts: Parts,
     name: str = "Wafer",
     gap_nm: float = GAP_NM,
-    display: str = "BOUNDS",
+    plates: bool = True,
 ) -> Generator[float, None, bpy.types.Object]:
     """Links a wafer full of dies, as one object, to a collection. Yields how much is done, 0 to 1.
 
     The front lies in the plane z = 0 in mm, the wafer's centre is the origin, notch or flat at -y.
-    display: how viewports that do not render show the dies, as Blender's `display_type`; there are
-    millions of blocks on a wafer. Raises IcwaferError where the layout has no wafer.
+    plates: whether viewports show plates in place of the dies, see `icwafer.scene.stand_in`. Raises
+    IcwaferError where the layout has no wafer.
     """
     if layout.wafer is None:
         raise IcwaferError("the layout has no wafer: give it a table [wafer]")
     places = place_dies(layout)
     meshes: list[bpy.types.Mesh] = []
     kind_of = yield from _die_meshes(meshes, layout, places, gap_nm)
-    mesh = _disc_mesh(name, layout, places, kind_of)
+    plates &= len(meshes) > 0
+    mesh = _disc_mesh(name, layout, places, kind_of, plates)
     for material in (parts.silicon, parts.lane):
         mesh.materials.append(material)
     wafer = bpy.data.objects.new(name, mesh)
     dies = bpy.data.collections.new(f"{name} dies")
+    # Geometry nodes pick by place in alphabetical order.
     for number, shape in enumerate(meshes):
         for material in (parts.blocks, parts.ground):
             shape.materials.append(material)
-        # Geometry nodes pick by place in alphabetical order.
         die = bpy.data.objects.new(f"Die {number:05}", shape)
-        die.display_type = display
+        die.display_type = "BOUNDS" if plates else "TEXTURED"
         dies.objects.link(die)
+    if plates:
+        title, rects = f"Die {len(meshes):05} stand-in", _grounds_mm(layout, places, 0.0)
+        dies.objects.link(stand_in(title, layout.wafer, rects, meshes[0], parts))
     modifier = wafer.modifiers.new("Dies", "NODES")
     modifier.node_group = _instancing_group()
     modifier[modifier.node_group.inputs["Dies"].identifier] = dies
@@ -136,8 +142,10 @@ def _partial_mesh(
     )
 
 
-def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray) -> bpy.types.Mesh:
-    """The disc, the ground of the scribe lanes on it, and a loose point for each die."""
+def _disc_mesh(
+    name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray, with_stand_in: bool
+) -> bpy.types.Mesh:
+    """The disc, the ground of the scribe lanes on it, and a loose point for each instance."""
     wafer = layout.wafer
     rings = [
         np.insert(outline_mm(wafer, inset), 2, height - 2 * STEP_MM, axis=1)
@@ -151,21 +159,16 @@ def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray)
         for ring in range(len(rings) - 1)
     ]
     back = index[::-1] + (len(rings) - 1) * around
-    lanes = _lanes_mm(layout, places)
+    lanes = _grounds_mm(layout, places, layout.wafer.scribe_um / 1000)
     stands = np.flatnonzero(kind_of >= 0)
-    lane_points = np.insert(np.concatenate([*lanes, np.empty((0, 2))]), 2, -1.5 * STEP_MM, axis=1)
-    die_points = np.insert(places.centre_mm[stands], 2, 0.0, axis=1)
+    lane_points = at_height(lanes, -1.5 * STEP_MM)
+    stand_in_point = np.zeros((int(with_stand_in), 2))
+    instances = at_height([places.centre_mm[stands], stand_in_point], 0.0)
     disc = around * len(rings)
-    first = disc + np.cumsum([0, *map(len, lanes)])
     mesh = polygon_mesh(
         name,
-        np.concatenate([*rings, lane_points, die_points]),
-        [
-            index[None],
-            back[None],
-            *sides,
-            *(np.arange(at, at + len(lane))[None] for at, lane in zip(first, lanes)),
-        ],
+        np.concatenate([*rings, lane_points, instances]),
+        [index[None], back[None], *sides, *loose_faces(lanes, disc)],
     )
     edge = np.zeros(len(mesh.polygons), dtype=bool)
     edge[2 : 2 + around * len(sides)] = True  # the faces are flat, the edge is round
@@ -174,20 +177,22 @@ def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray)
         "material_index", (np.arange(len(edge)) >= 2 + around * len(sides)).astype(np.int32)
     )
 
-    def on_points(values: np.ndarray) -> np.ndarray:
-        return np.r_[np.zeros(disc + len(lane_points)), values[stands]]
+    def on_points(of_dies: np.ndarray, of_stand_in: float = 0.0) -> np.ndarray:
+        of_others = np.zeros(disc + len(lane_points))
+        return np.r_[of_others, of_dies[stands], np.full(len(stand_in_point), of_stand_in)]
 
-    add_attribute(mesh, "ic_die", "POINT", on_points(kind_of + 1).astype(np.int32), "INT")
+    number = on_points(kind_of + 1, kind_of.max(initial=-1) + 2)
+    add_attribute(mesh, "ic_die", "POINT", number.astype(np.int32), "INT")
     for quantity, attribute in DRIFTS.items():
         drift = getattr(places, f"{quantity}_scale").astype(np.float64) - 1.0
         add_attribute(mesh, attribute, "POINT", on_points(drift))
     return mesh
 
 
-def _lanes_mm(layout: Layout, places: WaferMap) -> list[np.ndarray]:
-    """The ground around each die with half of the lanes beside it, cut by the rim: (k, 2) each."""
+def _grounds_mm(layout: Layout, places: WaferMap, lane_mm: float) -> list[np.ndarray]:
+    """The ground of each die with half of a lane around it, cut by the rim: (k, 2) each."""
     sizes = np.array([(die.width_mm, die.height_mm) for die in layout.dies])[places.die]
-    half = (sizes + layout.wafer.scribe_um / 1000) / 2
+    half = (sizes + lane_mm) / 2
     rects = np.concatenate([places.centre_mm - half, places.centre_mm + half], axis=1)
     pieces = cut_to_usable(rects, layout.wafer)
     whole: Sequence[np.ndarray] = rects[pieces.whole][:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
