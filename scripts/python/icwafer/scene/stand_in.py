@@ -16,9 +16,9 @@ from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
 from icwafer.scene.parts import Parts
 from icwafer.scene.polygons import add_attribute, at_height, loose_faces, polygon_mesh
 
-#: How far the disc is in front of the dies, and the plates in front of the disc: enough for the
-#: depth buffer of a view of the whole wafer.
-STEP_MM = 0.1
+#: How far disc and plates are in front of the dies, in shares of the diameter: enough for the depth
+#: buffer of a view of the whole wafer.
+DISC, PLATES = 0.006, 0.007
 _RAYS = ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow")
 
 
@@ -32,7 +32,12 @@ def stand_in(
     rim = outline_mm(wafer, edge_profile_mm(wafer)[0][0])
     mesh = polygon_mesh(
         name,
-        np.concatenate([at_height([rim], STEP_MM), at_height(plates, 2 * STEP_MM)]),
+        np.concatenate(
+            [
+                at_height([rim], DISC * wafer.diameter_mm),
+                at_height(plates, PLATES * wafer.diameter_mm),
+            ]
+        ),
         loose_faces([rim, *plates]),
     )
     is_plate = np.arange(1 + len(plates)) > 0

@@ -3,10 +3,10 @@
 
 The object's mesh is the disc of silicon and a loose point where each die stands; a geometry-nodes
 modifier puts the dies on the points. The points carry `ic_die` (1 for the first kind of die, 0 for
-the disc's own points) and the drift of the place, `ic_oxide_drift` and so on, which the material
-reads from the instance (Attribute node, type Instancer). Of what can carry such attributes, an
-object for each die takes several times as long to the first sample, and is hundreds of things to
-move (tests/benchmarks/wafer_scale.py).
+the disc's own points, a negative number for what only viewports show) and the drift of the place,
+`ic_oxide_drift` and so on, which the material reads from the instance (Attribute node, type
+Instancer). Of what can carry such attributes, an object for each die takes several times as long to
+the first sample, and is hundreds of things to move (tests/benchmarks/wafer_scale.py).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from icwafer.scene.polygons import add_attribute, at_height, loose_faces, polygo
 from icwafer.scene.stand_in import stand_in
 
 #: The node group that puts dies on points, one for all wafers of a file.
-GROUP = "IC Wafer Dies"
+GROUP = "IC Wafer Instances"
 
 
 def add_wafer(
@@ -83,7 +83,10 @@ def wafer_in_steps(
         die.display_type = "BOUNDS" if plates else "TEXTURED"
         dies.objects.link(die)
     if plates:
-        title, rects = f"Die {len(meshes):05} stand-in", _grounds_mm(layout, places, 0.0)
+        title = f"Die {len(meshes):05} stand-in"
+        # Wider lanes than real ones, which could not be seen.
+        lane_mm = -0.05 * min(layout.dies[0].width_mm, layout.dies[0].height_mm)
+        rects = _grounds_mm(layout, places, lane_mm)
         dies.objects.link(stand_in(title, layout.wafer, rects, meshes[0], parts))
     modifier = wafer.modifiers.new("Dies", "NODES")
     modifier.node_group = _instancing_group()
@@ -181,7 +184,7 @@ def _disc_mesh(
         of_others = np.zeros(disc + len(lane_points))
         return np.r_[of_others, of_dies[stands], np.full(len(stand_in_point), of_stand_in)]
 
-    number = on_points(kind_of + 1, kind_of.max(initial=-1) + 2)
+    number = on_points(kind_of + 1, -(kind_of.max(initial=-1) + 2))
     add_attribute(mesh, "ic_die", "POINT", number.astype(np.int32), "INT")
     for quantity, attribute in DRIFTS.items():
         drift = getattr(places, f"{quantity}_scale").astype(np.float64) - 1.0
@@ -200,7 +203,10 @@ def _grounds_mm(layout: Layout, places: WaferMap, lane_mm: float) -> list[np.nda
 
 
 def _instancing_group() -> bpy.types.NodeTree:
-    """Puts the objects of a collection on points: the one that `ic_die` names, counted from 1."""
+    """Puts the objects of a collection on points: the one that `ic_die` names, counted from 1.
+
+    Where the number is negative, viewports show the object, and renders do not.
+    """
     group = bpy.data.node_groups.get(GROUP)
     if group is not None:
         return group
@@ -213,32 +219,50 @@ def _instancing_group() -> bpy.types.NodeTree:
     number = group.nodes.new("GeometryNodeInputNamedAttribute")
     number.data_type = "INT"
     number.inputs["Name"].default_value = "ic_die"
-    pick = group.nodes.new("ShaderNodeMath")
-    pick.operation = "SUBTRACT"
-    pick.inputs[1].default_value = 1.0
+    viewport = group.nodes.new("GeometryNodeIsViewport")
     dies = group.nodes.new("GeometryNodeCollectionInfo")
     dies.inputs["Separate Children"].default_value = True
     dies.inputs["Reset Children"].default_value = True
     instances = group.nodes.new("GeometryNodeInstanceOnPoints")
     instances.inputs["Pick Instance"].default_value = True
     join = group.nodes.new("GeometryNodeJoinGeometry")
+
+    def math(operation: str, *operands: bpy.types.NodeSocket | float) -> bpy.types.Node:
+        node = group.nodes.new("ShaderNodeMath")
+        node.operation = operation
+        for socket, operand in zip(node.inputs, operands):
+            if isinstance(operand, float):
+                socket.default_value = operand
+            else:
+                group.links.new(operand, socket)
+        return node
+
+    value = number.outputs[4]  # the integer one of outputs that all have one name
+    counted = math("ABSOLUTE", value)
+    pick = math("SUBTRACT", counted.outputs[0], 1.0)
+    opposite = math("MULTIPLY", value, -1.0)
+    in_viewport = math("MULTIPLY", opposite.outputs[0], viewport.outputs[0])
+    wanted = math("MAXIMUM", value, in_viewport.outputs[0])
     for column, row, node in (
         (0, 0, given),
         (0, -250, number),
-        (1, -150, dies),
-        (1, -400, pick),
-        (2, -100, instances),
-        (3, 0, join),
-        (4, 0, result),
+        (0, -450, viewport),
+        (1, -400, opposite),
+        (1, -600, counted),
+        (2, -100, dies),
+        (2, -400, in_viewport),
+        (2, -600, pick),
+        (3, -300, wanted),
+        (4, -100, instances),
+        (5, 0, join),
+        (6, 0, result),
     ):
         node.location = (200 * column, row)
-    value = number.outputs[4]  # the integer one of outputs that all have one name
     for source, target in (
         (given.outputs["Geometry"], join.inputs["Geometry"]),
         (given.outputs["Geometry"], instances.inputs["Points"]),
         (given.outputs["Dies"], dies.inputs["Collection"]),
-        (value, pick.inputs[0]),
-        (value, instances.inputs["Selection"]),
+        (wanted.outputs[0], instances.inputs["Selection"]),
         (pick.outputs[0], instances.inputs["Instance Index"]),
         (dies.outputs[0], instances.inputs["Instance"]),
         (instances.outputs["Instances"], join.inputs["Geometry"]),
