@@ -79,7 +79,6 @@ class WaferOptions:
         min=0,
         max=2**31 - 1,
     )
-
     viewport: EnumProperty(
         name="Viewport",
         description="What viewports show of the dies, unless they render with Cycles. Renders show "

@@ -90,7 +90,8 @@ class InSteps:
         """Ends the work where it is; Blender calls this, too, when it closes or loads a file."""
         self._work.close()
         context.window_manager.event_timer_remove(self._timer)
-        context.workspace.status_text_set(None)
+        if context.workspace:
+            context.workspace.status_text_set(None)
 
     @reported
     def _go_on(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

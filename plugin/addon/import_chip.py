@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.props import CollectionProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
+from bpy_extras.object_utils import AddObjectHelper
 
 from .add_die import add_die, add_wires
 from .add_wafer import WaferOptions
@@ -55,7 +56,7 @@ def side_um(name: str, description: str) -> FloatProperty:
 class ImportOptions(WaferOptions, PlacingOptions):
     """Properties of an import: the files, how to read them, and what to make of them."""
 
-    filepath: StringProperty(subtype="FILE_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    filepath: StringProperty(subtype="FILE_PATH", options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
     files: CollectionProperty(
         type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"}
@@ -233,8 +234,8 @@ class IMPORT_SCENE_OT_ic_chip_choose(ImportOptions, ImportHelper, bpy.types.Oper
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         options = self.as_keywords(ignore=("filter_glob", "files"))
-        # What is not said of the wafer, the file decides.
-        for name in WaferOptions.__annotations__:
+        # What is not said of the wafer, the file decides; of the place, the 3D cursor.
+        for name in (*WaferOptions.__annotations__, *AddObjectHelper.__annotations__):
             if not self.properties.is_property_set(name):
                 del options[name]
         files = [{"name": file.name} for file in self.files]

@@ -15,7 +15,7 @@ import time
 import bpy
 
 #: Redraws that are measured, after one that prepares what the next ones use.
-ITERATIONS = 3
+ITERATIONS = 1
 
 
 def view() -> dict[str, object]:

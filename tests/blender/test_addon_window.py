@@ -100,6 +100,7 @@ class AddOnWindow(unittest.TestCase):
     def test_import_through_the_file_browser(self) -> None:
         self.assertEqual(list(self.faces("imported")), ["chip"])
         self.assertAlmostEqual(self.facts["imported"]["chip"][1], 2.0, places=3)
+        self.assertEqual(self.facts["place"], [1.0, 2.0, 3.0], "not at the 3D cursor")
         width, height = self.facts["options"]
         self.assertTrue(width > 150 and height > 300, "no room for its options")
         self.assertEqual(self.facts["import undone"], CUBE)

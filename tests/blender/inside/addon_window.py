@@ -153,6 +153,10 @@ def choose_file() -> None:
         bpy.ops.file.execute()
 
 
+def move_cursor(place: tuple[float, float, float]) -> None:
+    bpy.context.scene.cursor.location = place
+
+
 def wait() -> None:
     """While regions of a new window slide in."""
 
@@ -258,6 +262,7 @@ in_window(
     tell("wafer"),
     lambda: shoot("wafer"),
     undo,
+    lambda: move_cursor((1.0, 2.0, 3.0)),
     lambda: search("chip layout"),
     lambda: press("RET"),
     wait,
@@ -266,6 +271,7 @@ in_window(
     choose_file,
     until(lambda: "chip" in bpy.data.objects),
     tell("imported"),
+    lambda: facts.update({"place": list(bpy.data.objects["chip"].location)}),
     lambda: shoot("imported"),
     undo,
     tell("import undone"),
