@@ -43,7 +43,7 @@ class AddOnWindow(unittest.TestCase):
                 "pause_s": 0.3,
             },
             folder=cls.folder,
-            seconds=300,
+            seconds=600,
             window=True,
         )
 
