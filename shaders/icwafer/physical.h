@@ -168,6 +168,8 @@ constexpr float hidden = 6.5f;
 constexpr float grid_middle_nm = 600.0f;
 /* Steps above this are rounded down to whole nanometres. */
 constexpr float whole_step_nm = 2.0f;
+/* No grid has fewer nodes. */
+constexpr float few_nodes = 20.0f;
 /* More orders than this are not summed one by one. */
 constexpr int window_limit = 24;
 
@@ -249,7 +251,8 @@ struct OrderGroups {
   float rest;
 };
 
-ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
+/* Those within `farthest` of the mirror order, in direction cosines. */
+ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open, const float farthest)
 {
   OrderGroups groups;
   groups.count = 0;
@@ -261,8 +264,7 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
   const float cosine_1 = cosf(two_pi * lattice.duty);
   float cosine = cosine_1, before = 1.0f;
   float left = lattice.duty * (1.0f - lattice.duty);
-  /* No direction is as far from another as this order. */
-  const float horizon = 2.0f * lattice.spacing_nm / first_nm;
+  const float horizon = farthest * lattice.spacing_nm / first_nm;
   int first = 1;
   for (; groups.count < group_limit && float(first) <= horizon; groups.count++) {
     const int last = first + (2 * first) / 5;
@@ -351,8 +353,7 @@ ICW_DEVICE_LARGE Lanes largest_power(const PhysicalParams &p,
                                 lanes(1.0f));
   const Lanes lobe_range = 0.5f * (cosine_of(lanes_max(middle - sigma, lanes(0.0f))) -
                                    cosine_of(middle + sigma));
-  const Lanes contrast = levels_contrast(
-      p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm);
+  const Lanes contrast = levels_contrast(p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm);
   return axis.groups.weight[group] * above *
          lanes_min(largest_contrast(p, contrast, group_range, lobe_range, per_nm), limit);
 }
@@ -365,25 +366,38 @@ struct MirrorBound {
   float diagonal;
 };
 
+/* Where lobes that reach above the horizon have their middle, at most; the widest is that of the
+ * order as far away as can be. */
+ICW_DEVICE float lobes_horizon(const PhysicalParams &p, const float sigma_0)
+{
+  return 1.0f + 2.0f * (sigma_0 + 2.0f * p.variation);
+}
+
 ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p, const Pair &pair)
 {
   const bool cross = p.along.spacing_nm > 0.0f;
-  return {{{order_groups(p.across, cross ? 1.0f - p.along.duty : 1.0f),
-            p.across.spacing_nm,
-            pair.mid_nu,
-            pair.mid_tau},
-           {order_groups(p.along, 1.0f - p.across.duty),
-            p.along.spacing_nm,
-            pair.mid_tau,
-            pair.mid_nu}},
-          sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f)),
-          sqrtf(larger(physical_lobe_variance(p, p.across), physical_lobe_variance(p, p.along))),
-          cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
-                  0.0f};
+  const float sigma_0 = sqrtf(
+      larger(physical_lobe_variance(p, p.across), physical_lobe_variance(p, p.along)));
+  const float horizon = lobes_horizon(p, sigma_0);
+  return {
+      {{order_groups(p.across,
+                     cross ? 1.0f - p.along.duty : 1.0f,
+                     smaller(horizon + fabsf(pair.mid_nu), 2.0f)),
+        p.across.spacing_nm,
+        pair.mid_nu,
+        pair.mid_tau},
+       {order_groups(p.along, 1.0f - p.across.duty, smaller(horizon + fabsf(pair.mid_tau), 2.0f)),
+        p.along.spacing_nm,
+        pair.mid_tau,
+        pair.mid_nu}},
+      sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f)),
+      sigma_0,
+      cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
+              0.0f};
 }
 
-/* The most that |r_ridge - r_groove|^2 can be, whatever the thicknesses and the angle. The phase of
- * the film moves r on a circle; for an amplitude r' of the lower face its diameter is at most
+/* The most that |r_ridge - r_groove|^2 can be, whatever the thicknesses and the angle. The phase
+ * of the film moves r on a circle; for an amplitude r' of the lower face its diameter is at most
  * 2 |r'|, and no light is reflected better there than that which is polarised across the plane of
  * incidence and came in at grazing angles. */
 ICW_DEVICE Lanes contrast_limit(const Lanes film_ior, const Complex<Lanes> metal)
@@ -406,8 +420,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
                                       const Lanes per_nm)
 {
   const float shortest_nm = 1.0f / lanes_largest(per_nm);
-  /* Where lobes end, the widest of which is of the order as far away as can be. */
-  const float horizon = 1.0f + 2.0f * (bound.sigma_0 + 2.0f * p.variation);
+  const float horizon = lobes_horizon(p, bound.sigma_0);
   /* U^2 of what may be above the horizon and is not in the sum yet, and two bits for each group
    * that it has. */
   float rest = 0.0f;
@@ -472,7 +485,7 @@ enum class Orders {
   Dense,
 };
 
-/* Nodes of the integration over the wavelengths, gathered until all lanes are full. */
+/* The integration over the wavelengths. */
 template<typename Tables>
 struct Integrator {
   const PhysicalParams &p;
@@ -488,54 +501,42 @@ struct Integrator {
 
   /* Whether all nodes are whole nanometres, where the tables need no interpolation. */
   bool whole = false;
-  float wavelength_nm[lane_count] = {}, step_nm[lane_count] = {}, order[lane_count] = {};
-  int count = 0;
   Lanes red = lanes(0.0f), green = lanes(0.0f), blue = lanes(0.0f);
   Lanes weight_red = lanes(0.0f), weight_green = lanes(0.0f), weight_blue = lanes(0.0f);
 
-  ICW_DEVICE_METHOD void add(const float node_nm, const float node_step_nm, const float node_order)
+  /* Adds a node in each lane. They are inside the visible range, so there is a next entry in the
+   * tables. */
+  ICW_DEVICE_LARGE_METHOD void add_lanes(const Lanes wavelength,
+                                         const Lanes step,
+                                         const Lanes node_order)
   {
-    wavelength_nm[count] = node_nm;
-    step_nm[count] = node_step_nm;
-    order[count] = node_order;
-    if (++count == lane_count) {
-      flush();
-    }
-  }
-
-  /* Adds up the nodes gathered so far. Nodes are inside the visible range, so there is a next
-   * entry in the tables. */
-  ICW_DEVICE_LARGE_METHOD void flush()
-  {
-    if (count == 0) {
-      return;
-    }
-    for (; count < lane_count; count++) {
-      wavelength_nm[count] = wavelength_nm[0];
-      step_nm[count] = 0.0f;
-      order[count] = order[0];
-    }
-    count = 0;
-
-    const Lanes wavelength = load_lanes(wavelength_nm);
     int cell[lane_count];
     float fraction[lane_count];
     split_lanes(wavelength - (whole ? first_nm - 0.5f : first_nm), cell, fraction);
-    Complex<Lanes> metal;
     Lanes s_red, s_green, s_blue;
-    look_up(cell, 0, metal, s_red, s_green, s_blue);
+    tables.sensitivities(p.illuminant, cell, s_red, s_green, s_blue);
+    Complex<Lanes> metal, next_metal;
+    if (p.metal == metal_custom) {
+      metal = custom_metal(wavelength);
+    }
+    else {
+      tables.metals(p.metal, cell, metal, next_metal);
+    }
     if (!whole) {
       const Lanes part = load_lanes(fraction);
-      Complex<Lanes> next_metal;
+      for (int &i : cell) {
+        i++;
+      }
       Lanes next_red, next_green, next_blue;
-      look_up(cell, 1, next_metal, next_red, next_green, next_blue);
-      metal = metal + part * (next_metal - metal);
+      tables.sensitivities(p.illuminant, cell, next_red, next_green, next_blue);
       s_red += part * (next_red - s_red);
       s_green += part * (next_green - s_green);
       s_blue += part * (next_blue - s_blue);
+      if (p.metal != metal_custom) {
+        metal = metal + part * (next_metal - metal);
+      }
     }
-    const Lanes f = reflected(wavelength, load_lanes(order), metal);
-    const Lanes step = load_lanes(step_nm);
+    const Lanes f = reflected(wavelength, node_order, metal);
     s_red *= step;
     s_green *= step;
     s_blue *= step;
@@ -552,22 +553,12 @@ struct Integrator {
   {
     for (int node = 0; node < rule_nodes(rule); node += lane_count) {
       const auto row = [&](const int number) {
-        float values[lane_count];
-        for (int lane = 0; lane < lane_count; lane++) {
-          values[lane] = tables.rule_value(p.illuminant, rule, number, node + lane);
-        }
-        return load_lanes(values);
+        return tables.rule_row(p.illuminant, rule, number, node);
       };
       const Lanes wavelength = row(0);
       Complex<Lanes> metal;
       if (p.metal == metal_custom) {
-        float n[lane_count], k[lane_count];
-        for (int lane = 0; lane < lane_count; lane++) {
-          const ComplexIndex index = custom_index(p, get_lane(wavelength, lane));
-          n[lane] = index.n;
-          k[lane] = index.k;
-        }
-        metal = {load_lanes(n), load_lanes(k)};
+        metal = custom_metal(wavelength);
       }
       else {
         metal = {row(4 + 2 * int(p.metal)), row(5 + 2 * int(p.metal))};
@@ -579,39 +570,15 @@ struct Integrator {
     }
   }
 
-  /* Entries number cell + offset of the visible range. */
-  ICW_DEVICE_METHOD void look_up(const int *cell,
-                                 const int offset,
-                                 Complex<Lanes> &metal,
-                                 Lanes &s_red,
-                                 Lanes &s_green,
-                                 Lanes &s_blue) const
+  ICW_DEVICE_METHOD Complex<Lanes> custom_metal(const Lanes wavelength) const
   {
-    float r[lane_count], g[lane_count], b[lane_count], n[lane_count], k[lane_count];
+    float n[lane_count], k[lane_count];
     for (int lane = 0; lane < lane_count; lane++) {
-      const Rgb s = tables.sensitivity(p.illuminant, cell[lane] + offset);
-      r[lane] = s.r;
-      g[lane] = s.g;
-      b[lane] = s.b;
+      const ComplexIndex index = custom_index(p, get_lane(wavelength, lane));
+      n[lane] = index.n;
+      k[lane] = index.k;
     }
-    if (p.metal == metal_custom) {
-      for (int lane = 0; lane < lane_count; lane++) {
-        const ComplexIndex index = custom_index(p, first_nm + float(cell[lane] + offset));
-        n[lane] = index.n;
-        k[lane] = index.k;
-      }
-    }
-    else {
-      for (int lane = 0; lane < lane_count; lane++) {
-        const ComplexIndex index = tables.metal(p.metal, cell[lane] + offset);
-        n[lane] = index.n;
-        k[lane] = index.k;
-      }
-    }
-    metal = {load_lanes(n), load_lanes(k)};
-    s_red = load_lanes(r);
-    s_green = load_lanes(g);
-    s_blue = load_lanes(b);
+    return {load_lanes(n), load_lanes(k)};
   }
 
   ICW_DEVICE_METHOD Rgb sum() const
@@ -635,7 +602,13 @@ struct Integrator {
   {
     const Lanes per_nm = 1.0f / wavelength;
     const Lanes film_ior = cauchy_index(p.oxide, per_nm);
-    const FilmPair<Lanes> r = levels(p, lanes(pair.cosine), film_ior, metal, per_nm);
+    FilmPair<Lanes> r = {};
+    if (bound) {
+      r = levels(p, lanes(pair.cosine), film_ior, metal, per_nm);
+    }
+    else {
+      r.contrast = levels_contrast(p, lanes(pair.cosine), film_ior, metal, per_nm);
+    }
     const Lanes sigma_first = lanes_sqrt(lobe_variance(p, first, wavelength, lanes(0.0f)));
     const Lanes sigma_second = lanes_sqrt(lobe_variance(p, second, wavelength, lanes(0.0f)));
     const Lanes zero_second = lanes_gaussian(lanes(q_second), sigma_second);
@@ -696,6 +669,48 @@ struct Integrator {
                               lanes_sqrt(lobe_variance(p, first, wavelength, shift)) :
                               sigma;
     return amplitude * amplitude * lanes_gaussian(q_first - shift, sigma_m);
+  }
+};
+
+/* The lobe of one order in wavelength, and the step for it. */
+struct OrderLobe {
+  float centre_nm, sigma_nm, step_nm;
+};
+
+/* Nodes, gathered until all lanes are full. */
+template<typename Tables>
+struct NodeQueue {
+  Integrator<Tables> &integrator;
+  int count = 0;
+  float wavelength_nm[lane_count], step_nm[lane_count], order[lane_count];
+
+  ICW_DEVICE_METHOD explicit NodeQueue(Integrator<Tables> &to) : integrator(to)
+  {
+  }
+
+  ICW_DEVICE_METHOD void add(const float node_nm, const float node_step_nm, const float node_order)
+  {
+    wavelength_nm[count] = node_nm;
+    step_nm[count] = node_step_nm;
+    order[count] = node_order;
+    if (++count == lane_count) {
+      flush();
+    }
+  }
+
+  /* Adds up the nodes gathered so far. */
+  ICW_DEVICE_METHOD void flush()
+  {
+    if (count == 0) {
+      return;
+    }
+    for (; count < lane_count; count++) {
+      wavelength_nm[count] = wavelength_nm[0];
+      step_nm[count] = 0.0f;
+      order[count] = order[0];
+    }
+    count = 0;
+    integrator.add_lanes(load_lanes(wavelength_nm), load_lanes(step_nm), load_lanes(order));
   }
 };
 
@@ -764,19 +779,34 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   const float blue_ior = cauchy_index(p.oxide, 1.0f / blue_nm);
   const float film_path_nm = 2.0f * sqrtf(larger(square(blue_ior) - sine_squared, 0.0f)) *
                              (p.oxide_nm + p.groove_nm);
+
+  /* The mirror order by itself. */
+  const auto rule_for_film = [&]() {
+    int rule = 0;
+    while (rule < rule_count && film_path_nm >= rule_path_nm(rule)) {
+      rule++;
+    }
+    return rule;
+  };
+  const float order_1 = first_nm / spacing_nm;
+  const bool alone = q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) <
+                     order_1;
+  if (alone) {
+    nodes.orders = Orders::None;
+    const int rule = rule_for_film();
+    if (rule < rule_count) {
+      nodes.add_rule(rule);
+      return nodes.sum();
+    }
+  }
+
   const float lamp_per_nm = illuminant_bandwidth_per_nm(p.illuminant);
   const float lamp_part = lamp_per_nm < bright_lamp_per_nm ? 0.7f : 0.8f;
 
-  /* The lobes' widths in wavelength, and in orders. */
   const auto sigma_nm = [&](const float wavelength_nm) {
     return wavelength_nm / larger(q, 1e-6f) *
            sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q));
   };
-  const auto sigma_orders = [&](const float wavelength_nm) {
-    return sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q)) * spacing_nm / wavelength_nm;
-  };
-  const float own_orders = sigma_orders(last_nm);
-  const bool smooth = own_orders > smooth_orders;
   const auto step_nm = [&](const float wavelength_nm, const float lobe_per_nm) {
     /* Lobe and lamp as Gaussians, whose product is narrower than either; of a thick film the
      * second pass counts, too. */
@@ -786,41 +816,47 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   };
   /* The grid is even in 1 / lambda, in which film and orders are; its step where the eye sees
    * most. `path_nm` is what varies beside film and lamp, over 1 / lambda. */
-  const auto grid_step = [&](const float path_nm) {
-    return step_nm(grid_middle_nm, two_pi * path_nm / square(grid_middle_nm)) /
-           square(grid_middle_nm);
+  constexpr float grid_begin = 1.0f / grid_last_nm, grid_span = 1.0f / grid_first_nm - grid_begin;
+  const auto grid_nodes = [&](const float path_nm) {
+    return grid_span * square(grid_middle_nm) /
+           step_nm(grid_middle_nm, two_pi * path_nm / square(grid_middle_nm));
   };
-  const float lobe_path_nm = gaussian_bandwidth / two_pi * square(grid_last_nm) /
-                             sigma_nm(grid_last_nm);
+  const auto lobe_path_nm = [&]() {
+    return gaussian_bandwidth / two_pi * square(grid_last_nm) / sigma_nm(grid_last_nm);
+  };
+  const auto sigma_orders = [&](const float wavelength_nm) {
+    return sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q)) * spacing_nm / wavelength_nm;
+  };
 
   /* One order after the other. */
   if (!mirror && order_most - float(order_first) < float(window_limit)) {
-    const auto step_in = [&](const float centre_nm, const float sigma) {
-      return step_nm(clamped(centre_nm, blue_nm, last_nm), gaussian_bandwidth / sigma);
-    };
-    float node_count = 0.0f;
     const int order_last = int(order_most);
-    for (int m = order_first; m <= order_last; m++) {
+    const auto lobe_of = [&](const int m) {
       const float centre_nm = q * spacing_nm / float(m);
       const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
-      node_count += 2.0f * lobe_reach * sigma / step_in(centre_nm, sigma) + 1.0f;
+      return OrderLobe{centre_nm,
+                       sigma,
+                       step_nm(clamped(centre_nm, blue_nm, last_nm), gaussian_bandwidth / sigma)};
+    };
+    const OrderLobe last = lobe_of(order_last);
+    float node_count = 0.0f;
+    for (int m = order_first; m <= order_last; m++) {
+      const OrderLobe lobe = m < order_last ? lobe_of(m) : last;
+      node_count += 2.0f * lobe_reach * lobe.sigma_nm / lobe.step_nm + 1.0f;
     }
-    if (node_count < (1.0f / grid_first_nm - 1.0f / grid_last_nm) /
-                         grid_step(smooth ? 0.0f : lobe_path_nm)) {
+    if (node_count < few_nodes ||
+        node_count < grid_nodes(sigma_orders(last_nm) > smooth_orders ? 0.0f : lobe_path_nm())) {
       nodes.orders = Orders::Single;
-      const float last_centre_nm = q * spacing_nm / float(order_last);
-      nodes.whole = step_in(last_centre_nm, sigma_nm(clamped(last_centre_nm, first_nm, last_nm))) >
-                    whole_step_nm;
+      nodes.whole = last.step_nm > whole_step_nm;
+      NodeQueue<Tables> queue(nodes);
       for (int m = order_first; m <= order_last; m++) {
-        const float centre_nm = q * spacing_nm / float(m);
-        const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
-        const float exact_step = step_in(centre_nm, sigma);
-        const float step = nodes.whole ? floorf(exact_step) : exact_step;
-        const bool bright = lamp_per_nm < bright_lamp_per_nm && sigma < bright_sigma_nm &&
-                            centre_nm > bright_first_nm && centre_nm < bright_last_nm;
-        const float reach_nm = (bright ? bright_reach : lobe_reach) * sigma;
+        const OrderLobe lobe = m < order_last ? lobe_of(m) : last;
+        const float step = nodes.whole ? floorf(lobe.step_nm) : lobe.step_nm;
+        const bool bright = lamp_per_nm < bright_lamp_per_nm && lobe.sigma_nm < bright_sigma_nm &&
+                            lobe.centre_nm > bright_first_nm && lobe.centre_nm < bright_last_nm;
+        const float reach_nm = (bright ? bright_reach : lobe_reach) * lobe.sigma_nm;
         const float count = ceilf(2.0f * reach_nm / step);
-        float node = centre_nm - 0.5f * step * (count - 1.0f);
+        float node = lobe.centre_nm - 0.5f * step * (count - 1.0f);
         if (nodes.whole) {
           node = floorf(node + 0.5f);
         }
@@ -829,10 +865,10 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
           node += step * ceilf((first_nm - node) / step);
         }
         for (; node < end; node += step) {
-          nodes.add(node, step, float(m));
+          queue.add(node, step, float(m));
         }
       }
-      nodes.flush();
+      queue.flush();
       return nodes.sum();
     }
   }
@@ -840,6 +876,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   /* All orders at each node of a grid over the visible range. */
   float path_nm = 0.0f;
   const float path_1_nm = q * spacing_nm;
+  const float own_orders = sigma_orders(last_nm);
   /* A ripple of so many turns for each order is hidden by the lobes' width, and as the eye blurs
    * it. */
   const auto seen = [&](const float turns) {
@@ -850,14 +887,19 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   };
   const float slit = smaller(nodes.first.duty, 1.0f - nodes.first.duty);
   const int ripples = seen(1.0f - slit) ? 2 : seen(slit) ? 1 : 0;
-  const float ripple_path_nm = path_1_nm * (ripples == 2 ? 1.0f - slit : ripples == 1 ? slit : 0.0f);
-  if (!mirror && !seen(1.0f) && path_1_nm > larger(2.0f, 10.0f * own_orders) * last_nm) {
+  const float ripple_path_nm = path_1_nm * (ripples == 2 ? 1.0f - slit :
+                                            ripples == 1 ? slit :
+                                                           0.0f);
+  if (alone) {
+    path_nm = 0.0f;
+  }
+  else if (!mirror && !seen(1.0f) && path_1_nm > larger(2.0f, 10.0f * own_orders) * last_nm) {
     nodes.orders = Orders::Dense;
     nodes.dense_ripples = ripples;
     path_nm = ripple_path_nm;
   }
-  else if (!smooth) {
-    path_nm = lobe_path_nm;
+  else if (own_orders < smooth_orders) {
+    path_nm = lobe_path_nm();
     if (2.0f * apart_reach * sigma_orders(first_nm) < 1.0f) {
       nodes.orders = Orders::Single;
     }
@@ -865,30 +907,22 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   else {
     path_nm = ripple_path_nm;
   }
-  const float order_1 = first_nm / spacing_nm;
-  if (q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) < order_1) {
-    nodes.orders = Orders::None;
-    path_nm = 0.0f;
-  }
   if (path_nm == 0.0f) {
-    for (int rule = 0; rule < rule_count; rule++) {
-      if (film_path_nm < rule_path_nm(rule)) {
-        nodes.add_rule(rule);
-        return nodes.sum();
-      }
+    const int rule = rule_for_film();
+    if (rule < rule_count) {
+      nodes.add_rule(rule);
+      return nodes.sum();
     }
   }
-  const float exact_step = grid_step(path_nm);
-  const float begin = 1.0f / grid_last_nm, span = 1.0f / grid_first_nm - begin;
-  const int node_count = int(ceilf(span / exact_step));
-  const float step = span / float(node_count);
-  nodes.whole = step * square(grid_first_nm) > whole_step_nm;
-  for (int k = 0; k < node_count; k++) {
-    const float per_nm = begin + step * (float(k) + 0.5f);
-    const float node = 1.0f / per_nm;
-    nodes.add(node, step * square(node), larger(floorf(path_1_nm * per_nm + 0.5f), 1.0f));
+  const int block_count = int(ceilf(grid_nodes(path_nm) / float(lane_count)));
+  const float step = grid_span / float(block_count * lane_count);
+  for (int block = 0; block < block_count; block++) {
+    const Lanes k = float(block * lane_count) + 0.5f + lane_numbers();
+    const Lanes per_nm = grid_begin + step * k;
+    const Lanes node = 1.0f / per_nm;
+    nodes.add_lanes(
+        node, step * node * node, lanes_max(lanes_round(path_1_nm * per_nm), lanes(1.0f)));
   }
-  nodes.flush();
   return nodes.mean();
 }
 
