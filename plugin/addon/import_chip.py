@@ -84,8 +84,8 @@ class ImportOptions(WaferOptions, PlacingOptions):
     )
     tile_um: side_um(
         "Tile",
-        "Side of the squares that the chip is looked at in, in µm. 0 for 25, or on large chips what "
-        "gives 500 of them; take 200 for power straps",
+        "Side of the squares that the chip is looked at in, in µm. 0 for 25, or on large chips "
+        "what gives 500 of them; take 200 for power straps",
     )
     window_um: side_um(
         "Window",

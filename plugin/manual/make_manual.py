@@ -3,9 +3,9 @@
 """Write ic_wafer_bsdf.html, the page that F1 opens on the node, from the table of its inputs.
 
 The inputs come from shaders/icwafer/node_inputs.h, the same table that Blender's sockets and
-tooltips are made of, their pictures from sweeps.py, the attributes of meshes from icwafer.attributes,
-as those in the add-on's panel. With --check nothing is written; the exit status says whether the page
-is up to date.
+tooltips are made of, their pictures from sweeps.py, the attributes of meshes from
+icwafer.attributes, as those in the add-on's panel. With --check nothing is written; the exit status
+says whether the page is up to date.
 """
 
 import html

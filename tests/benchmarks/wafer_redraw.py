@@ -14,10 +14,6 @@ import time
 
 import bpy
 
-#: Redraws that are measured, after one that prepares what the next ones use.
-ITERATIONS = 1
-
-
 def view() -> dict[str, object]:
     window = bpy.context.window_manager.windows[0]
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
@@ -26,7 +22,7 @@ def view() -> dict[str, object]:
 
 
 def redraw_s(**wafer: str) -> float:
-    """Mean time for one redraw, with a wafer of these options if there are any."""
+    """Time for a redraw after the first one, with a wafer of these options if there are any."""
     with bpy.context.temp_override(**view()):
         if wafer:
             bpy.ops.mesh.ic_wafer_add("EXEC_DEFAULT", True, **wafer)
@@ -35,8 +31,8 @@ def redraw_s(**wafer: str) -> float:
             thing.select_set(False)
         bpy.ops.wm.redraw_timer(type="DRAW", iterations=1)
         begin = time.monotonic()
-        bpy.ops.wm.redraw_timer(type="DRAW", iterations=ITERATIONS)
-        seconds = (time.monotonic() - begin) / ITERATIONS
+        bpy.ops.wm.redraw_timer(type="DRAW", iterations=1)
+        seconds = time.monotonic() - begin
         if wafer:
             bpy.data.objects.remove(thing)
     return seconds

@@ -87,7 +87,8 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
     in_edit_mode = "bpy.ops.mesh.primitive_plane_add(); bpy.ops.object.mode_set(mode='EDIT')"
     in_mm = "bpy.context.scene.unit_settings.scale_length = 0.001"
     at_cursor = "bpy.context.scene.cursor.location = (1, 2, 3)"
-    change = "bpy.data.materials['Chip'].node_tree.nodes['IC Wafer BSDF']"
+    wafer = "bpy.data.materials['Chip'].node_tree.nodes['IC Wafer BSDF']"
+    change = f"{wafer}.inputs['Coherence Width'].default_value = 3"
     group = {"name": "logic", "spacing_nm": 1500.0, "deviation_nm": 5.0, "oxide_nm": 700.0}
     group |= {"diffraction": 0.9, "turned": 0.0}
     return {
@@ -103,7 +104,7 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
         "equal die": step(DIE, preset="dram") | {"before": "bpy.ops.mesh.ic_die_add()"},
         "other metal": step(DIE, metal="ALUMINIUM") | {"before": "bpy.ops.mesh.ic_die_add()"},
         "changed by hand": step(DIE)
-        | {"before": f"bpy.ops.mesh.ic_die_add(); {change}.inputs['Coherence Width'].default_value = 3"},
+        | {"before": f"bpy.ops.mesh.ic_die_add(); {change}"},
         "too small": step(DIE, preset="eight-core", width_mm=0.1, height_mm=0.1),
         "wafer": rendered("wafer", step(WAFER, preset="eight-core"))
         | {"blend": str(folder / "wafer.blend")},

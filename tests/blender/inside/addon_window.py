@@ -193,14 +193,15 @@ def readers() -> int:
     for folder in Path("/proc").glob("[0-9]*"):
         try:
             parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
-            found += parent == os.getpid() and b"portrait.apart" in (folder / "cmdline").read_bytes()
+            command = (folder / "cmdline").read_bytes()
+            found += parent == os.getpid() and b"portrait.apart" in command
         except FileNotFoundError:
             pass  # it has just ended
     return found
 
 
 def tell_import(name: str) -> Step:
-    """Remembers how an import is going, and what of the user's clicks reaches the view meanwhile."""
+    """Remembers how an import is going, and what of the user's keys reaches the view."""
     return lambda: facts.update(
         {
             name: {

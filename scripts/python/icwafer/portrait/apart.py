@@ -44,8 +44,8 @@ class Wish:
 def subject_apart(wish: Wish, patience_s: float) -> Generator[float | None, None, Subject]:
     """What `subject_of` returns, and its errors, in steps between which the caller may do more.
 
-    Yields how much is done, 0 to 1, or None where in `patience_s` seconds nothing was heard. Closing
-    the generator ends the process.
+    Yields how much is done, 0 to 1, or None where in `patience_s` seconds nothing was heard.
+    Closing the generator ends the process.
     """
     with tempfile.TemporaryDirectory(prefix="icwafer-") as folder:
         wires = Path(folder) / "wires.npz"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What viewports show in place of a wafer's dies: millions of blocks take them seconds to draw.
 
-It is a disc with a plate for each die, in front of the dies, whose own outlines it hides. Renders do
-not show it, and Cycles does not in the viewport either, where all blocks are seen.
+It is a disc with a plate for each die, in front of the dies, whose own outlines it hides. Renders
+do not show it, and Cycles does not in the viewport either, where all blocks are seen.
 """
 
 from __future__ import annotations
