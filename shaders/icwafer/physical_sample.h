@@ -273,8 +273,11 @@ ICW_DEVICE Real order_variance(const PhysicalParams &p, const Lattice &lattice, 
 }
 
 /* Density over q > 0 of light whose spectrum an order spreads by this much per nanometre. */
-ICW_DEVICE float spectrum_density(
-    const PhysicalView &view, const Side &side, const float q, const float per_nm, const float scale)
+ICW_DEVICE float spectrum_density(const PhysicalView &view,
+                                  const Side &side,
+                                  const float q,
+                                  const float per_nm,
+                                  const float scale)
 {
   Lanes sum = lanes(0.0f);
   const float per_scale = 1.0f / scale, open_nm = side.open / per_nm;
@@ -294,7 +297,10 @@ ICW_DEVICE float one_minus_exp(const float x)
   return x < 0.01f ? x * (1.0f - 0.5f * x) : 1.0f - expf(-x);
 }
 
-ICW_DEVICE float band_point(const float begin, const float end, const float part, const float scale)
+ICW_DEVICE float band_point(const float begin,
+                            const float end,
+                            const float part,
+                            const float scale)
 {
   const float inside = clamped(part, 1e-6f, 1.0f - 1e-6f);
   const float width = (end - begin) / scale;
@@ -303,8 +309,11 @@ ICW_DEVICE float band_point(const float begin, const float end, const float part
 }
 
 /* The q > 0 below which the part `part` of the light of an order lies. */
-ICW_DEVICE float spectrum_point(
-    const PhysicalView &view, const Side &side, const float part, const float per_nm, const float scale)
+ICW_DEVICE float spectrum_point(const PhysicalView &view,
+                                const Side &side,
+                                const float part,
+                                const float per_nm,
+                                const float scale)
 {
   float left = part * spectrum_power(view, side, per_nm), density = 0.0f;
   for (int number = 0;; number++) {
