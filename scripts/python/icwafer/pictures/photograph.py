@@ -12,29 +12,65 @@ with it, the one here fits best.
 from __future__ import annotations
 
 from icwafer.chips.presets.bar_memory import PRODUCT
-from icwafer.pictures.model import Camera, Light, Picture, Render, View
+from icwafer.pictures.model import (
+    Camera,
+    Dust,
+    Irregular,
+    Light,
+    Picture,
+    Render,
+    Response,
+    View,
+)
 
 PHOTOGRAPH = Picture(
     "A wafer of memories, lit and seen as in a photograph.",
     PRODUCT,
     (
+        # LAMPS
         Light(
             "AREA",
-            (-179.5, 2.7, 460.7),
-            4e6,
-            size_mm=(183.0, 93.0),
-            turn_deg=76.4,
+            (-163.4, 63.0, 583.9),
+            5.85e+06,
+            size_mm=(183.4, 65.2),
+            fade=0.7,
+            turn_deg=97.5,
         ),
+        Light(
+            "AREA",
+            (-242.7, 257.2, 600.8),
+            1.95e+06,
+            size_mm=(328.1, 79.7),
+            fade=0.7,
+            turn_deg=125.4,
+        ),
+        Light(
+            "AREA",
+            (-175.1, -186.9, 570.5),
+            4.23e+06,
+            size_mm=(204.9, 221.5),
+            fade=0.7,
+            turn_deg=82.2,
+        ),
+        Light(
+            "AREA",
+            (-24.7, 171.4, 477.4),
+            1.96e+05,
+            size_mm=(188.2, 183.3),
+            fade=0.7,
+            turn_deg=81.1,
+        ),
+        # RIM
         # Low at the left: only the rounded rim sends its light on to the camera.
-        Light("CARD", (-420.0, 60.0, 110.0), 5e5, size_mm=(500.0, 120.0)),
+        Light("CARD", (-420.0, 60.0, 110.0), 1.2e6, size_mm=(900.0, 200.0)),
         # Low behind: the far rim.
         Light("CARD", (-120.0, 620.0, 60.0), 1.5e5, size_mm=(800.0, 90.0), fade=0.5),
         # What the bare silicon of the near rim mirrors: a dim window.
         Light(
             "CARD",
             (-190.0, 390.0, 380.0),
-            1.2e3,
-            (0.1, 0.25, 1.0),
+            8e3,
+            (0.25, 0.42, 1.0),
             size_mm=(300.0, 160.0),
             fade=0.6,
         ),
@@ -49,11 +85,14 @@ PHOTOGRAPH = Picture(
     {
         "model": "PHYSICAL",
         "metal": "TUNGSTEN",
-        "Coherence Width": 20.9,
-        "Wire Length": 1.45,
-        "Roughness": 0.061,
+        "Coherence Width": 45.1,
+        "Wire Length": 3.44,
+        "Roughness": 0.071,
     },
     wafer="bar-memory",
-    view=View("Standard", "None", exposure=0.0, gamma=0.74),
+    irregular=Irregular((0.22, 0.2, 0.17), 0.6),
+    dust=Dust(150, 90.0),
+    response=Response(saturation=1.36, glow=0.03),
+    view=View("Filmic", "Very High Contrast", exposure=-1.08, gamma=1.45),
     render=Render((1024, 682), 160, noise=0.01, bounces=1),
 )

@@ -20,7 +20,7 @@ from icwafer.chips.clip import Pieces, cut_to_usable
 from icwafer.chips.die import generate
 from icwafer.chips.model import Die, Layout
 from icwafer.chips.outline import edge_profile_mm, outline_mm
-from icwafer.chips.placement import WaferMap, place_dies
+from icwafer.chips.placement import WaferMap, blank_fields_mm, place_dies
 from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
 from icwafer.scene.material import DRIFTS
@@ -52,7 +52,7 @@ def add_wafer(
     places = place_dies(layout)
     kinds, kind_of = _die_kinds(layout, places, parts, gap_nm, progress)
     mesh = _disc_mesh(name, layout, places, kind_of)
-    for material in (parts.silicon, parts.lane):
+    for material in (parts.silicon, parts.lane, parts.ground, parts.film_edge):
         mesh.materials.append(material)
     wafer = bpy.data.objects.new(name, mesh)
     collection.objects.link(wafer)
@@ -129,7 +129,11 @@ def _partial_mesh(
 
 
 def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray) -> bpy.types.Mesh:
-    """The disc, the ground of the scribe lanes on it, and a loose point for each die."""
+    """The disc, what lies on it but for the dies, and a loose point for each die.
+
+    On it lie the ground of the scribe lanes, the line along which the films end, and films without
+    a pattern where fields were not exposed.
+    """
     wafer = layout.wafer
     rings = [
         np.insert(outline_mm(wafer, inset), 2, height - 2 * STEP_MM, axis=1)
@@ -144,30 +148,35 @@ def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray)
     ]
     back = index[::-1] + (len(rings) - 1) * around
     lanes = _lanes_mm(layout, places)
+    blanks = _cut_mm(blank_fields_mm(layout), wafer)
+    film_edge = _film_edge_mm(wafer)
+    patches = [*lanes, *blanks, *film_edge]
     stands = np.flatnonzero(kind_of >= 0)
-    lane_points = np.insert(np.concatenate([*lanes, np.empty((0, 2))]), 2, -1.5 * STEP_MM, axis=1)
+    patch_points = np.insert(np.concatenate([*patches, np.empty((0, 2))]), 2, -1.5 * STEP_MM, axis=1)
     die_points = np.insert(places.centre_mm[stands], 2, 0.0, axis=1)
     disc = around * len(rings)
-    first = disc + np.cumsum([0, *map(len, lanes)])
+    first = disc + np.cumsum([0, *map(len, patches)])
     mesh = polygon_mesh(
         name,
-        np.concatenate([*rings, lane_points, die_points]),
+        np.concatenate([*rings, patch_points, die_points]),
         [
             index[None],
             back[None],
             *sides,
-            *(np.arange(at, at + len(lane))[None] for at, lane in zip(first, lanes)),
+            *(np.arange(at, at + len(patch))[None] for at, patch in zip(first, patches)),
         ],
     )
     edge = np.zeros(len(mesh.polygons), dtype=bool)
-    edge[2 : 2 + around * len(sides)] = True  # the faces are flat, the edge is round
+    silicon = 2 + around * len(sides)
+    edge[2:silicon] = True  # the faces are flat, the edge is round
     mesh.polygons.foreach_set("use_smooth", edge)
     mesh.polygons.foreach_set(
-        "material_index", (np.arange(len(edge)) >= 2 + around * len(sides)).astype(np.int32)
+        "material_index",
+        np.repeat(np.arange(4, dtype=np.int32), [silicon, len(lanes), len(blanks), len(film_edge)]),
     )
 
     def on_points(values: np.ndarray) -> np.ndarray:
-        return np.r_[np.zeros(disc + len(lane_points)), values[stands]]
+        return np.r_[np.zeros(disc + len(patch_points)), values[stands]]
 
     add_attribute(mesh, "ic_die", "POINT", on_points(kind_of + 1).astype(np.int32), "INT")
     for quantity, attribute in DRIFTS.items():
@@ -181,8 +190,24 @@ def _lanes_mm(layout: Layout, places: WaferMap) -> list[np.ndarray]:
     sizes = np.array([(die.width_mm, die.height_mm) for die in layout.dies])[places.die]
     half = (sizes + layout.wafer.scribe_um / 1000) / 2
     rects = np.concatenate([places.centre_mm - half, places.centre_mm + half], axis=1)
-    pieces = cut_to_usable(rects, layout.wafer)
-    whole: Sequence[np.ndarray] = rects[pieces.whole][:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
+    return _cut_mm(rects, layout.wafer)
+
+
+def _film_edge_mm(wafer: Wafer) -> list[np.ndarray]:
+    """The line along which the films end, in quadrangles: (4, 2) each; not on the round edge."""
+    outer_mm = max(wafer.edge_exclusion_mm - wafer.film_edge_mm, wafer.bevel_mm)
+    if outer_mm >= wafer.edge_exclusion_mm:
+        return []
+    inner, outer = (outline_mm(wafer, inset) for inset in (wafer.edge_exclusion_mm, outer_mm))
+    return list(
+        np.stack([inner, outer, np.roll(outer, -1, axis=0), np.roll(inner, -1, axis=0)], axis=1)
+    )
+
+
+def _cut_mm(rects_mm: np.ndarray, wafer: Wafer) -> list[np.ndarray]:
+    """What of rectangles (n, 4) lies on the usable area: (k, 2) each."""
+    pieces = cut_to_usable(rects_mm, wafer)
+    whole: Sequence[np.ndarray] = rects_mm[pieces.whole][:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
     return [*whole, *(polygon for _, polygon in pieces.cut)]
 
 

@@ -16,7 +16,7 @@ from icwafer.chips.spread import Normal
 from icwafer.chips.tree import Cut, Macro, Node, Part, Ring, Tiles
 from icwafer.chips.wafer import Drift, Wafer
 
-_GROOVE_NM = 291.0
+_GROOVE_NM = 290.4
 
 
 def _wires(
@@ -24,9 +24,10 @@ def _wires(
     kind: Kind,
     spacing_nm: float,
     duty: float,
-    oxide_nm: float = 163.0,
-    variation: float = 0.004,
+    oxide_nm: float = 152.9,
+    variation: float = 0.001,
     diffraction: float = 1.0,
+    groove_nm: float = _GROOVE_NM,
 ) -> Group:
     """Blocks of equal wires. duty: width as a share of the spacing."""
     return Group(
@@ -37,49 +38,50 @@ def _wires(
         oxide_nm=Normal(oxide_nm),
         diffraction=Normal(diffraction),
         spacing_variation=Normal(variation),
-        groove_nm=Normal(_GROOVE_NM),
+        groove_nm=Normal(groove_nm),
     )
 
 
-#: Wires that are next to nothing, a mirror under oxide; and metal of many periods, pale.
-_BARE = _wires("bare", Kind.STRIP, 1000.0, 0.001)
-_LANE_METAL = _wires("lane", Kind.SEAL, 2900.0, 0.42, variation=0.05)
+#: Wires too fine for visible light, and a quarter of a wave deep: black. Metal of many shapes.
+_FINE = _wires("fine", Kind.STRIP, 300.0, 0.5, groove_nm=92.0)
+_LANE_METAL = _wires("lane", Kind.SEAL, 2900.0, 0.42, variation=0.05, diffraction=0.25)
 _STRIP = Macro(Kind.STRIP)
 _LANE = Macro(Kind.SEAL)
 
-#: Twelve rows of cells; between them lines of amplifiers.
-_BAR = Tiles(
-    Cut(
-        1,
-        (
-            Part(Macro(Kind.MEMORY), 0.85),
-            Part(_STRIP, 0.05),
-            Part(Macro(Kind.BUS), (0.09, 0.11)),
-        ),
-    ),
-    columns=1,
-    rows=12,
+#: Rows of cells of several heights, even all over; between them lines of amplifiers.
+_CELLS = Macro(Kind.PIXEL)
+_BAR = Cut(
+    1,
+    tuple(
+        part
+        for _ in range(7)
+        for part in (Part(_CELLS, (0.6, 1.4)), Part(Macro(Kind.BUS), um=70.0))
+    )
+    + (Part(_CELLS, 0.8),),
 )
-_PADS = Tiles(Ring(26.0, _STRIP, Macro(Kind.IO)), pitch_um=230.0)
+#: Half of a pad is at each side: the saw would part them.
+_PADS = Tiles(Cut(1, (Part(Macro(Kind.IO), 0.76), Part(_STRIP, 0.24))), columns=1, rows=5)
 _BARS = Cut(
     0,
     (
-        Part(_PADS, um=230.0),
-        Part(_STRIP, um=320.0),
+        Part(_PADS, um=100.0),
+        Part(_STRIP, um=372.0),
         Part(_BAR),
-        Part(_STRIP, um=360.0),
+        Part(_STRIP, um=430.0),
         Part(_BAR),
-        Part(_STRIP, um=290.0),
+        Part(_STRIP, um=350.0),
+        Part(_PADS, um=100.0),
     ),
 )
 
 
 def _with_lanes(inside: Node, um: float) -> Cut:
-    """Scribe lanes with their metal below and above something."""
-    return Cut(1, (Part(_LANE, um=um), Part(inside), Part(_LANE, um=um)))
+    """Scribe lanes with their metal below and above something, and dark lines along them."""
+    dark = Part(_STRIP, um=45.0)
+    return Cut(1, (Part(_LANE, um=um), dark, Part(inside), dark, Part(_LANE, um=um)))
 
 
-TREE = _with_lanes(_BARS, 80.0)
+TREE = _with_lanes(_BARS, 130.0)
 
 PRODUCT = DieSpec(
     name="bar-memory",
@@ -87,13 +89,13 @@ PRODUCT = DieSpec(
     seed=1,
     width_mm=4.02,
     height_mm=4.84,
-    block_um=150.0,
+    block_um=1500.0,
     groups=(
-        _wires("cells", Kind.MEMORY, 1628.0, 0.224),
-        _wires("amplifiers", Kind.BUS, 1760.0, 0.224),
-        _wires("pads", Kind.IO, 5200.0, 0.3, variation=0.3, diffraction=0.3),
+        _wires("cells", Kind.PIXEL, 1777.6, 0.376),
+        _wires("amplifiers", Kind.BUS, 1839.8, 0.376),
+        _wires("pads", Kind.IO, 5200.0, 0.3, variation=0.3, diffraction=0.8),
         _LANE_METAL,
-        _BARE,
+        _FINE,
     ),
 )
 
@@ -156,7 +158,7 @@ TEST = DieSpec(
         _wires("logic", Kind.LOGIC, *_CIRCUIT, 0.8),
         _wires("analog", Kind.ANALOG, *_ARRAYS["b"], 0.7),
         _LANE_METAL,
-        _BARE,
+        _FINE,
     ),
 )
 
@@ -165,6 +167,7 @@ LAYOUT = Layout(
     wafer=Wafer(
         diameter_mm=200,
         edge_exclusion_mm=2.35,
+        film_edge_mm=0.22,
         bevel_mm=0.4,
         field_columns=3,
         field_rows=5,
