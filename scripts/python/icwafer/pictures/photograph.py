@@ -62,7 +62,7 @@ PHOTOGRAPH = Picture(
         ),
         # RIM
         # Low at the left: only the rounded rim sends its light on to the camera.
-        Light("CARD", (-420.0, 60.0, 110.0), 1.2e6, size_mm=(900.0, 200.0)),
+        Light("CARD", (-420.0, 40.0, 110.0), 8e5, size_mm=(680.0, 180.0), fade=0.2),
         # Low behind: the far rim.
         Light("CARD", (-120.0, 620.0, 60.0), 1.5e5, size_mm=(800.0, 90.0), fade=0.5),
         # What the bare silicon of the near rim mirrors: a dim window.
@@ -90,9 +90,9 @@ PHOTOGRAPH = Picture(
         "Roughness": 0.071,
     },
     wafer="bar-memory",
-    irregular=Irregular((0.22, 0.2, 0.17), 0.6),
-    dust=Dust(150, 90.0),
+    irregular=Irregular((0.2, 0.19, 0.17), 0.6),
+    dust=Dust(260, 80.0),
     response=Response(saturation=1.36, glow=0.03),
     view=View("Filmic", "Very High Contrast", exposure=-1.08, gamma=1.45),
-    render=Render((1024, 682), 160, noise=0.01, bounces=1),
+    render=Render((1620, 1079), 144, noise=0.015, bounces=1),
 )

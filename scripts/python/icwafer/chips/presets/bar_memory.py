@@ -11,12 +11,15 @@ nearest to the colours of its dies; the size is one that fits such a wafer.
 
 from __future__ import annotations
 
+import math
+
 from icwafer.chips.model import DieSpec, Group, Kind, Layout
 from icwafer.chips.spread import Normal
 from icwafer.chips.tree import Cut, Macro, Node, Part, Ring, Tiles
 from icwafer.chips.wafer import Drift, Wafer
 
 _GROOVE_NM = 290.4
+_FILL_NM = 800.0
 
 
 def _wires(
@@ -28,8 +31,13 @@ def _wires(
     variation: float = 0.001,
     diffraction: float = 1.0,
     groove_nm: float = _GROOVE_NM,
+    strength: float = 1.0,
 ) -> Group:
-    """Blocks of equal wires. duty: width as a share of the spacing."""
+    """Blocks of equal wires. duty: width as a share of the spacing.
+
+    strength: of the diffraction. Metal across the wires, too fine for visible light, fills part of
+    the grooves: the amplitude falls with what is left of them.
+    """
     return Group(
         name,
         kind,
@@ -39,6 +47,8 @@ def _wires(
         diffraction=Normal(diffraction),
         spacing_variation=Normal(variation),
         groove_nm=Normal(groove_nm),
+        cross_spacing_nm=Normal(_FILL_NM if strength < 1.0 else 0.0),
+        cross_width_nm=Normal(round(_FILL_NM * (1.0 - math.sqrt(strength)), 1)),
     )
 
 
@@ -92,7 +102,7 @@ PRODUCT = DieSpec(
     block_um=1500.0,
     groups=(
         _wires("cells", Kind.PIXEL, 1777.6, 0.376),
-        _wires("amplifiers", Kind.BUS, 1839.8, 0.376),
+        _wires("amplifiers", Kind.BUS, 1886.0, 0.376),
         _wires("pads", Kind.IO, 5200.0, 0.3, variation=0.3, diffraction=0.8),
         _LANE_METAL,
         _FINE,
@@ -100,10 +110,20 @@ PRODUCT = DieSpec(
 )
 
 
+#: Spacing, duty cycle, oxide, variation, and strength: the nearest to the photograph's colours.
+_ARRAYS = {
+    "array a": (3536.0, 0.139, 729.0, 0.039, 0.34),
+    "array b": (3571.0, 0.311, 423.0, 0.022, 0.47),
+    "array c": (3160.0, 0.153, 559.0, 0.106, 0.44),
+}
+_CIRCUIT = (4062.0, 0.113, 833.0, 0.077, 0.44)
+
+
 def _array(role: str) -> Ring:
-    """A square of test structures: a frame, and columns of one pattern between dark lines."""
-    column = Cut(0, (Part(Macro(Kind.FILL, role), 0.86), Part(_STRIP, 0.14)))
-    return Ring(240.0, Macro(Kind.FILL, f"{role} frame"), Tiles(column, columns=8, rows=1))
+    """A square of test structures: brighter columns of one pattern on a darker ground of it."""
+    ground = Macro(Kind.PIXEL, f"{role} ground")
+    column = Cut(0, (Part(Macro(Kind.PIXEL, role), 0.25), Part(ground, 0.75)))
+    return Ring(240.0, ground, Tiles(column, columns=8, rows=1))
 
 
 _CIRCUITS = Ring(
@@ -129,17 +149,9 @@ TEST_TREE = Cut(
     1,
     (
         _row(_CIRCUITS),
-        *(_row(Ring(60.0, _LANE, _array(f"array {name}"))) for name in "cba"),
+        *(_row(Ring(60.0, _STRIP, _array(role))) for role in reversed(_ARRAYS)),
     ),
 )
-
-#: Spacing, duty cycle, oxide, variation.
-_ARRAYS = {
-    "a": (2440.0, 0.18, 386.0, 0.02),
-    "b": (2331.0, 0.19, 119.0, 0.02),
-    "c": (2210.0, 0.18, 533.0, 0.1),
-}
-_CIRCUIT = (2328.0, 0.17, 387.0, 0.15)
 
 TEST = DieSpec(
     name="bar-memory-test",
@@ -147,16 +159,16 @@ TEST = DieSpec(
     seed=11,
     width_mm=12.2,
     height_mm=24.5,
-    block_um=220.0,
+    block_um=300.0,
     groups=(
         *(
-            _wires(f"array {name}{part}", Kind.FILL, *wires, share)
-            for name, wires in _ARRAYS.items()
-            for part, share in (("", 0.85), (" frame", 0.45))
+            _wires(role + part, Kind.PIXEL, *wires, strength=share * strength)
+            for role, (*wires, strength) in _ARRAYS.items()
+            for part, share in (("", 1.5), (" ground", 0.85))
         ),
-        _wires("circuit frame", Kind.FILL, *_CIRCUIT),
-        _wires("logic", Kind.LOGIC, *_CIRCUIT, 0.8),
-        _wires("analog", Kind.ANALOG, *_ARRAYS["b"], 0.7),
+        _wires("circuit frame", Kind.FILL, *_CIRCUIT[:4], strength=0.5 * _CIRCUIT[4]),
+        _wires("logic", Kind.LOGIC, *_CIRCUIT[:4], strength=_CIRCUIT[4]),
+        _wires("analog", Kind.ANALOG, *_ARRAYS["array b"][:4], strength=_CIRCUIT[4]),
         _LANE_METAL,
         _FINE,
     ),
@@ -178,6 +190,6 @@ LAYOUT = Layout(
         partial_dies=True,
         test_fields=((-4, -2), (-3, -2), (-3, -3), (-5, 2), (-4, 2), (-4, 3)),
         blank_fields=((-7, 2), (-7, -2), (-5, -3), (3, 4), (-3, 4)),
-        oxide=Drift(bow=0.02, tilt=0.01, tilt_direction_deg=140.0, noise=0.001),
+        oxide=Drift(bow=0.01, tilt=0.005, tilt_direction_deg=140.0, noise=0.001),
     ),
 )
