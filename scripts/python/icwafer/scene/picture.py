@@ -48,10 +48,12 @@ def add_subject(picture: Picture, collection: bpy.types.Collection) -> bpy.types
     if picture.wafer:
         ready = PRESETS[picture.wafer]
         layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
+        wafer = add_wafer(layout, collection, parts(picture.node, picture.irregular))
         if picture.dust.count:
-            usable_mm = layout.wafer.usable_radius_mm
-            collection.objects.link(dust_object(picture.dust, usable_mm))
-        return add_wafer(layout, collection, parts(picture.node, picture.irregular))
+            dust = dust_object(picture.dust, layout.wafer.usable_radius_mm)
+            dust.parent = wafer
+            collection.objects.link(dust)
+        return wafer
     # On a table a die has the ground between its blocks.
     on_table = picture.table.size_mm > 0
     die = bpy.data.objects.new("Die", die_mesh(generate(picture.die), ground=on_table))

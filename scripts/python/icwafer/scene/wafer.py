@@ -152,7 +152,8 @@ def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray)
     film_edge = _film_edge_mm(wafer)
     patches = [*lanes, *blanks, *film_edge]
     stands = np.flatnonzero(kind_of >= 0)
-    patch_points = np.insert(np.concatenate([*patches, np.empty((0, 2))]), 2, -1.5 * STEP_MM, axis=1)
+    patch_corners = np.concatenate([*patches, np.empty((0, 2))])
+    patch_points = np.insert(patch_corners, 2, -1.5 * STEP_MM, axis=1)
     die_points = np.insert(places.centre_mm[stands], 2, 0.0, axis=1)
     disc = around * len(rings)
     first = disc + np.cumsum([0, *map(len, patches)])
@@ -172,7 +173,9 @@ def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray)
     mesh.polygons.foreach_set("use_smooth", edge)
     mesh.polygons.foreach_set(
         "material_index",
-        np.repeat(np.arange(4, dtype=np.int32), [silicon, len(lanes), len(blanks), len(film_edge)]),
+        np.repeat(
+            np.arange(4, dtype=np.int32), [silicon, len(lanes), len(blanks), len(film_edge)]
+        ),
     )
 
     def on_points(values: np.ndarray) -> np.ndarray:
