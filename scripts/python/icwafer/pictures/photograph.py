@@ -81,5 +81,5 @@ PHOTOGRAPH = Picture(
     dust=Dust(260, 80.0),
     response=Response(saturation=1.36, glow=0.03),
     view=View("Filmic", "Very High Contrast", exposure=-1.08, gamma=1.45),
-    render=Render((1620, 1079), 144, noise=0.015, bounces=1),
+    render=Render((1620, 1079), 80, bounces=1),
 )
