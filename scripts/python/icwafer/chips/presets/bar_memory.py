@@ -99,7 +99,7 @@ PRODUCT = DieSpec(
     seed=1,
     width_mm=4.02,
     height_mm=4.84,
-    block_um=1500.0,
+    block_um=500.0,
     groups=(
         _wires("cells", Kind.PIXEL, 1777.6, 0.376),
         _wires("amplifiers", Kind.BUS, 1886.0, 0.376),
