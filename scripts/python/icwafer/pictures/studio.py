@@ -42,12 +42,10 @@ FRONT = Picture(
     PRESETS["dram"].dies[0],
     (
         Light("AREA", (0.0, 310.0, 690.0), 0.8e6, size_mm=(600.0, 16.0), fade=0.4),
-        Light("AREA", (-90.0, -240.0, 690.0), 0.7e6, size_mm=(24.0, 30.0), fade=0.4),
-        # The ceiling, dim and bluish: between the colours it shows the blocks of every die.
-        Light("CARD", (0.0, 300.0, 1000.0), 1.2e6, (0.4, 0.6, 1.0), size_mm=(3000.0, 3000.0)),
+        Light("AREA", (-300.0, -140.0, 690.0), 2.0e6, size_mm=(40.0, 60.0), fade=0.4),
     ),
     Camera((0.0, -200.0, 690.0), (0.0, -4.0, 0.0), lens_mm=47.0),
-    _METAL | {"metal": "ALUMINIUM", "Wire Length": 9.0, "Roughness": 0.1},
+    _METAL | {"metal": "ALUMINIUM"},
     wafer="dram",
     view=View(exposure=0.5),
     render=_FULL,
