@@ -25,6 +25,9 @@ DRIFTING = {
     "ic_cross_width_nm": "width",
 }
 
+#: Of chips in viewports without light and shade: their tint on average.
+VIEWPORT_COLOUR = (0.30, 0.24, 0.38)
+
 
 def expect_node() -> None:
     """Raises IcwaferError in a Blender without the node."""
@@ -69,6 +72,7 @@ def chip_material(
     values: of the node's inputs and properties; an input that is named here takes no attribute.
     """
     material = bpy.data.materials.new(name)
+    material.diffuse_color = (*VIEWPORT_COLOUR, 1.0)
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
