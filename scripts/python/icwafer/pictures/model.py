@@ -135,7 +135,7 @@ class View:
 
 @dataclass(frozen=True)
 class Response:
-    """What lens and camera make of the light, before the view: the picture that is saved has it."""
+    """What lens and camera make of the light, before the view; the saved picture has it."""
 
     saturation: float = ruled(
         "distance of colours from grey, as a factor, negative light cut off: cameras make colours "

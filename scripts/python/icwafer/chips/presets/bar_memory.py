@@ -3,10 +3,10 @@
 
 Measured in the photograph "Si wafer" by Enrique Jimenez (CC BY-SA 2.0): the pitch of the dies
 relative to the wafer, the shares of bars and dark strips, the reticle fields of 3 x 5 dies, which
-of them hold test dies, which were not exposed, and where the rim cuts the pattern. Of the wires the
-photograph shows u d only, 960 to 1580 nm over the wafer (orders 2 and 3), where u depends on the
-lamp. Period, width, depth and film are those that, with the lamps of the picture `photograph`, come
-nearest to the colours of its dies and test fields; the size is one that fits such a wafer.
+of them hold test dies, which were not exposed, and where the rim cuts the pattern. Of the wires
+the photograph shows u d only, 960 to 1580 nm over the wafer (orders 2 and 3), where u depends on
+the lamp. Period, width, depth and film are those that, with the lamps of the picture `photograph`,
+come nearest to the colours of its dies and test fields; the size is one that fits such a wafer.
 """
 
 from __future__ import annotations
