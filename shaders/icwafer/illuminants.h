@@ -40,6 +40,16 @@ ICW_DEVICE float illuminant_bandwidth_per_nm(const Illuminant illuminant)
   return per_nm[illuminant];
 }
 
+/* How the eye under a lamp blurs an oscillation over 1 / lambda: one of `path` nanometres, longer
+ * than 4 um, has at most exp(-blur * path) of the amplitude of the mean in any channel, or less
+ * than 0.1 %. */
+ICW_DEVICE float illuminant_blur_per_nm(const Illuminant illuminant)
+{
+  constexpr float per_nm[illuminant_count] = {
+      3.2e-4f, 2.9e-4f, 3.2e-4f, 1.3e-4f, 8e-5f, 3.2e-4f, 2.5e-6f};
+  return per_nm[illuminant];
+}
+
 /* One of the two humps that the sum of the sensitivities under a lamp has, for sampling: blue;
  * green and red. The lines of fluorescent lamps are taken together; sodium has one line only. */
 struct IlluminantHump {

@@ -29,6 +29,12 @@ ICW_DEVICE Lanes lanes(const float x)
   return Lanes{} + x;
 }
 
+/* 0, 1, 2, ... */
+ICW_DEVICE Lanes lane_numbers()
+{
+  return Lanes{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
+}
+
 ICW_DEVICE float get_lane(const Lanes &x, const int lane)
 {
   return x[lane];
@@ -40,6 +46,27 @@ ICW_DEVICE Lanes load_lanes(const float *x)
   Lanes result;
   __builtin_memcpy(&result, x, sizeof(result));
   return result;
+}
+
+/* Four neighbouring floats for each lane, from where `at` says. */
+ICW_DEVICE void load_records(const float *const *at, Lanes &a, Lanes &b, Lanes &c, Lanes &d)
+{
+  typedef float Record __attribute__((vector_size(16)));
+  const auto pair = [&](const int k) {
+    Record low, high;
+    __builtin_memcpy(&low, at[k], sizeof(low));
+    __builtin_memcpy(&high, at[k + 4], sizeof(high));
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+  const Lanes r0 = pair(0), r1 = pair(1), r2 = pair(2), r3 = pair(3);
+  const Lanes ab01 = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes ab23 = __builtin_shufflevector(r2, r3, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes cd01 = __builtin_shufflevector(r0, r1, 2, 10, 3, 11, 6, 14, 7, 15);
+  const Lanes cd23 = __builtin_shufflevector(r2, r3, 2, 10, 3, 11, 6, 14, 7, 15);
+  a = __builtin_shufflevector(ab01, ab23, 0, 1, 8, 9, 4, 5, 12, 13);
+  b = __builtin_shufflevector(ab01, ab23, 2, 3, 10, 11, 6, 7, 14, 15);
+  c = __builtin_shufflevector(cd01, cd23, 0, 1, 8, 9, 4, 5, 12, 13);
+  d = __builtin_shufflevector(cd01, cd23, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
 ICW_DEVICE Lanes lanes_sqrt(Lanes x)
@@ -119,6 +146,11 @@ ICW_DEVICE Lanes lanes(const float x)
   return x;
 }
 
+ICW_DEVICE Lanes lane_numbers()
+{
+  return 0.0f;
+}
+
 ICW_DEVICE float get_lane(const Lanes x, const int)
 {
   return x;
@@ -127,6 +159,14 @@ ICW_DEVICE float get_lane(const Lanes x, const int)
 ICW_DEVICE Lanes load_lanes(const float *x)
 {
   return *x;
+}
+
+ICW_DEVICE void load_records(const float *const *at, Lanes &a, Lanes &b, Lanes &c, Lanes &d)
+{
+  a = at[0][0];
+  b = at[0][1];
+  c = at[0][2];
+  d = at[0][3];
 }
 
 ICW_DEVICE Lanes lanes_sqrt(const Lanes x)

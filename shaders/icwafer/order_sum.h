@@ -62,13 +62,18 @@ ICW_DEVICE_LARGE Lanes order_sum(const Lanes x,
   const float w_least = -lanes_largest(-w);
   const Lanes f_seen = lanes_min(lanes(f), 0.6f / w);
   const float stride = larger(1.0f, 1.0f / (smaller(f, 0.6f / w_least) + 0.67f / w_least));
-  const int reach = int(smaller(4.2f * w_most / stride + 0.5f, 8.0f));
+  /* Lobes end at 4.2 standard deviations. */
+  const int count = 1 + int(smaller(8.4f * w_most / stride, 16.0f));
 
-  const Lanes nearest = lanes_round(x / stride);
+  /* The nearest, the next on the other side of x, the one after the nearest, and so on. */
+  const Lanes place = x / stride;
+  const Lanes nearest = lanes_round(place);
+  const Lanes across = place < nearest ? lanes(-1.0f) : lanes(1.0f);
   const Lanes per_w_0 = 1.0f / w_0;
   Lanes sum = lanes(0.0f);
-  for (int j = -reach; j <= reach; j++) {
-    const Lanes m = (nearest + float(j)) * stride;
+  for (int j = 0; j < count; j++) {
+    const float away = j % 2 == 0 ? -0.5f * float(j) : 0.5f * float(j + 1);
+    const Lanes m = (nearest + away * across) * stride;
     const Lanes amplitude = order_amplitude(m, f_seen);
     Lanes per_w = per_w_0;
     if (variation > 0.0f) {
@@ -82,20 +87,34 @@ ICW_DEVICE_LARGE Lanes order_sum(const Lanes x,
 }
 
 /* The same where the orders are too close for any of them to be told from its neighbours in
- * wavelength: their mean density, x far from 0. The mean of 1 / m^2 under the Gaussian is
- * (1 + 3 r^2 + 15 r^4 + ...) / x^2, r = w / x. */
+ * wavelength, x far from 0: by Poisson's formula their mean density and, as far as `ripples` says,
+ * cos(2 pi f x), cos(2 pi (1 - f) x). The mean of 1 / m^2 under the Gaussian is
+ * (1 + 3 r^2 + 15 r^4 + ...) / x^2, r = w_0 / x; the spread of the spacing does not change it.
+ * That of cos(2 pi f m) / m^2 is taken at the saddle x + i delta, delta = 2 pi f w_0^2, and the
+ * spread damps it. */
 ICW_DEVICE Lanes order_density(const Lanes x,
                                const Lanes w_0,
                                const float duty,
-                               const bool fringes)
+                               const float variation,
+                               const int ripples)
 {
-  const Lanes per_x = 1.0f / (pi * x);
-  const Lanes r = w_0 / x;
-  const Lanes mean = 0.5f * per_x * per_x * (1.0f + r * r * (3.0f + 15.0f * r * r));
-  if (!fringes) {
-    return mean;
+  const float f = duty < 0.5f ? duty : 1.0f - duty;
+  const Lanes per_x = 1.0f / x;
+  const Lanes r = w_0 * per_x;
+  const Lanes mean = 0.5f / (pi * pi) * per_x * per_x * (1.0f + r * r * (3.0f + 15.0f * r * r));
+  const Lanes spread = variation * x;
+  const Lanes w = lanes_sqrt(w_0 * w_0 + spread * spread);
+  Lanes sum = lanes(1.0f);
+  for (int k = 0; k < ripples; k++) {
+    const float turns = k == 0 ? f : 1.0f - f;
+    const Lanes t = two_pi * turns * w_0 * r;
+    const Lanes damping = 1.0f / (1.0f + t * t);
+    Lanes sine, cosine;
+    lanes_sincos_turns(turns * x, sine, cosine);
+    sum -= lanes_bell(two_pi * turns * w) * damping * damping *
+           ((1.0f - t * t) * cosine + 2.0f * t * sine);
   }
-  return mean * (1.0f - lanes_bell(two_pi * duty * w_0) * lanes_cos_turns(x * duty));
+  return mean * sum;
 }
 
 }  // namespace icwafer

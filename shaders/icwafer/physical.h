@@ -151,7 +151,7 @@ constexpr float grid_last_nm = 730.0f;
 constexpr float blue_nm = 420.0f;
 /* Bandwidth of a Gaussian of standard deviation 1 that leaves 0.1 % of it, and where it is cut
  * off. */
-constexpr float gaussian_bandwidth = 3.8f;
+constexpr float gaussian_bandwidth = 3.6f;
 constexpr float lobe_reach = 4.5f;
 constexpr float mirror_reach = 5.5f;
 /* Under a lamp without lines, a narrow lobe whose middle is where the eye sees well matters no
@@ -160,6 +160,12 @@ constexpr float bright_first_nm = 425.0f, bright_last_nm = 670.0f, bright_sigma_
 constexpr float bright_lamp_per_nm = 0.6f, bright_reach = 3.3f;
 /* Orders further apart than twice this many standard deviations are told apart. */
 constexpr float apart_reach = 3.0f;
+/* A lobe of this standard deviation in orders hides them. */
+constexpr float smooth_orders = 0.56f;
+/* Ripples of less than exp(-hidden) in the mean density of orders are left out. */
+constexpr float hidden = 6.5f;
+/* Where a grid's step is found. */
+constexpr float grid_middle_nm = 600.0f;
 /* Steps above this are rounded down to whole nanometres. */
 constexpr float whole_step_nm = 2.0f;
 /* More orders than this are not summed one by one. */
@@ -243,7 +249,8 @@ struct OrderGroups {
   float rest;
 };
 
-ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
+/* Those within `farthest` of the mirror order, in direction cosines. */
+ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open, const float farthest)
 {
   OrderGroups groups;
   groups.count = 0;
@@ -255,8 +262,7 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open)
   const float cosine_1 = cosf(two_pi * lattice.duty);
   float cosine = cosine_1, before = 1.0f;
   float left = lattice.duty * (1.0f - lattice.duty);
-  /* No direction is as far from another as this order. */
-  const float horizon = 2.0f * lattice.spacing_nm / first_nm;
+  const float horizon = farthest * lattice.spacing_nm / first_nm;
   int first = 1;
   for (; groups.count < group_limit && float(first) <= horizon; groups.count++) {
     const int last = first + (2 * first) / 5;
@@ -308,13 +314,14 @@ struct BoundAxis {
   float mid, mid_other;
 };
 
-/* The most that a group of orders reflects on one side. */
+/* The most that a group of orders reflects on one side; no contrast is above `limit`. */
 ICW_DEVICE_LARGE Lanes largest_power(const PhysicalParams &p,
                                      const BoundAxis &axis,
                                      const int group,
                                      const float side,
                                      const float cosine,
                                      const float sigma_0,
+                                     const Lanes limit,
                                      const Lanes film_ior,
                                      const Complex<Lanes> metal,
                                      const Lanes per_nm)
@@ -344,10 +351,9 @@ ICW_DEVICE_LARGE Lanes largest_power(const PhysicalParams &p,
                                 lanes(1.0f));
   const Lanes lobe_range = 0.5f * (cosine_of(lanes_max(middle - sigma, lanes(0.0f))) -
                                    cosine_of(middle + sigma));
-  const Lanes contrast = levels_contrast(
-      p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm);
+  const Lanes contrast = levels_contrast(p, 0.5f * (cosine + cos_middle), film_ior, metal, per_nm);
   return axis.groups.weight[group] * above *
-         largest_contrast(p, contrast, group_range, lobe_range, per_nm);
+         lanes_min(largest_contrast(p, contrast, group_range, lobe_range, per_nm), limit);
 }
 
 /* What bounds the mirror order: all others, for light from the pair's middle direction. */
@@ -358,35 +364,61 @@ struct MirrorBound {
   float diagonal;
 };
 
+/* Where lobes that reach above the horizon have their middle, at most; the widest is that of the
+ * order as far away as can be. */
+ICW_DEVICE float lobes_horizon(const PhysicalParams &p, const float sigma_0)
+{
+  return 1.0f + 2.0f * (sigma_0 + 2.0f * p.variation);
+}
+
 ICW_DEVICE_LARGE MirrorBound mirror_bound(const PhysicalParams &p, const Pair &pair)
 {
   const bool cross = p.along.spacing_nm > 0.0f;
-  return {{{order_groups(p.across, cross ? 1.0f - p.along.duty : 1.0f),
-            p.across.spacing_nm,
-            pair.mid_nu,
-            pair.mid_tau},
-           {order_groups(p.along, 1.0f - p.across.duty),
-            p.along.spacing_nm,
-            pair.mid_tau,
-            pair.mid_nu}},
-          sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f)),
-          sqrtf(larger(physical_lobe_variance(p, p.across), physical_lobe_variance(p, p.along))),
-          cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
-                  0.0f};
+  const float sigma_0 = sqrtf(
+      larger(physical_lobe_variance(p, p.across), physical_lobe_variance(p, p.along)));
+  const float horizon = lobes_horizon(p, sigma_0);
+  return {
+      {{order_groups(p.across,
+                     cross ? 1.0f - p.along.duty : 1.0f,
+                     smaller(horizon + fabsf(pair.mid_nu), 2.0f)),
+        p.across.spacing_nm,
+        pair.mid_nu,
+        pair.mid_tau},
+       {order_groups(p.along, 1.0f - p.across.duty, smaller(horizon + fabsf(pair.mid_tau), 2.0f)),
+        p.along.spacing_nm,
+        pair.mid_tau,
+        pair.mid_nu}},
+      sqrtf(larger(1.0f - square(pair.mid_nu) - square(pair.mid_tau), 0.0f)),
+      sigma_0,
+      cross ? p.across.duty * (1.0f - p.across.duty) * p.along.duty * (1.0f - p.along.duty) :
+              0.0f};
 }
 
-/* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than 4 U^2, so
- * most wavelengths need only the first few for the bound to be out of reach. */
+/* The most that |r_ridge - r_groove|^2 can be, whatever the thicknesses and the angle. The phase
+ * of the film moves r on a circle; for an amplitude r' of the lower face its diameter is at most
+ * 2 |r'|, and no light is reflected better there than that which is polarised across the plane of
+ * incidence and came in at grazing angles. */
+ICW_DEVICE Lanes contrast_limit(const Lanes film_ior, const Complex<Lanes> metal)
+{
+  const Lanes film = lanes_sqrt(film_ior * film_ior - 1.0f);
+  const Complex<Lanes> squared = metal * metal;
+  const Complex<Lanes> below = decaying_sqrt<Lanes>({squared.re - 1.0f, squared.im});
+  return 4.0f * norm(Complex<Lanes>{film - below.re, below.im}) /
+         norm(Complex<Lanes>{film + below.re, below.im});
+}
+
+/* eta_00', the smaller of eta_00 and 1 less all other orders. No order takes more than U^2 times
+ * `limit`, so most wavelengths need only the first few for the bound to be out of reach. */
 ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
                                       const MirrorBound &bound,
                                       const Lanes eta,
+                                      const Lanes limit,
                                       const Lanes film_ior,
                                       const Complex<Lanes> metal,
                                       const Lanes per_nm)
 {
   const float shortest_nm = 1.0f / lanes_largest(per_nm);
-  /* Where lobes end, the widest of which is of the order as far away as can be. */
-  const float horizon = 1.0f + 2.0f * (bound.sigma_0 + 2.0f * p.variation);
+  const float horizon = lobes_horizon(p, bound.sigma_0);
   /* U^2 of what may be above the horizon and is not in the sum yet, and two bits for each group
    * that it has. */
   float rest = 0.0f;
@@ -414,13 +446,13 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
     }
     rest += axis.groups.rest;
   }
-  Lanes others = lanes(4.0f * bound.diagonal);
+  Lanes others = bound.diagonal * limit;
   for (int k = 0; (left[0] | left[1]) >> k != 0u; k++) {
     for (int axis = 0; axis < 2; axis++) {
       if ((left[axis] >> k & 1u) == 0u) {
         continue;
       }
-      if (lanes_largest(eta + others) + 4.0f * rest <= 1.0f) {
+      if (lanes_largest(eta + others + rest * limit) <= 1.0f) {
         return eta;
       }
       rest -= bound.axes[axis].groups.weight[k / 2];
@@ -430,12 +462,13 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
                               k % 2 == 0 ? -1.0f : 1.0f,
                               bound.cosine,
                               bound.sigma_0,
+                              limit,
                               film_ior,
                               metal,
                               per_nm);
     }
   }
-  return lanes_max(lanes_min(eta, 1.0f - 4.0f * rest - others), lanes(0.0f));
+  return lanes_max(lanes_min(eta, 1.0f - rest * limit - others), lanes(0.0f));
 }
 
 /* How the orders of the axis that tells the wavelength best are summed. */
@@ -450,7 +483,7 @@ enum class Orders {
   Dense,
 };
 
-/* Nodes of the integration over the wavelengths, gathered until all lanes are full. */
+/* The integration over the wavelengths. */
 template<typename Tables>
 struct Integrator {
   const PhysicalParams &p;
@@ -462,58 +495,46 @@ struct Integrator {
   Orders orders;
   /* Where the mirror order is in reach, what bounds it. */
   const MirrorBound *bound = nullptr;
-  bool dense_fringes = false;
+  int dense_ripples = 0;
 
   /* Whether all nodes are whole nanometres, where the tables need no interpolation. */
   bool whole = false;
-  float wavelength_nm[lane_count] = {}, step_nm[lane_count] = {}, order[lane_count] = {};
-  int count = 0;
   Lanes red = lanes(0.0f), green = lanes(0.0f), blue = lanes(0.0f);
   Lanes weight_red = lanes(0.0f), weight_green = lanes(0.0f), weight_blue = lanes(0.0f);
 
-  ICW_DEVICE_METHOD void add(const float node_nm, const float node_step_nm, const float node_order)
+  /* Adds a node in each lane. They are inside the visible range, so there is a next entry in the
+   * tables. */
+  ICW_DEVICE_LARGE_METHOD void add_lanes(const Lanes wavelength,
+                                         const Lanes step,
+                                         const Lanes node_order)
   {
-    wavelength_nm[count] = node_nm;
-    step_nm[count] = node_step_nm;
-    order[count] = node_order;
-    if (++count == lane_count) {
-      flush();
-    }
-  }
-
-  /* Adds up the nodes gathered so far. Nodes are inside the visible range, so there is a next
-   * entry in the tables. */
-  ICW_DEVICE_LARGE_METHOD void flush()
-  {
-    if (count == 0) {
-      return;
-    }
-    for (; count < lane_count; count++) {
-      wavelength_nm[count] = wavelength_nm[0];
-      step_nm[count] = 0.0f;
-      order[count] = order[0];
-    }
-    count = 0;
-
-    const Lanes wavelength = load_lanes(wavelength_nm);
     int cell[lane_count];
     float fraction[lane_count];
     split_lanes(wavelength - (whole ? first_nm - 0.5f : first_nm), cell, fraction);
-    Complex<Lanes> metal;
     Lanes s_red, s_green, s_blue;
-    look_up(cell, 0, metal, s_red, s_green, s_blue);
+    tables.sensitivities(p.illuminant, cell, s_red, s_green, s_blue);
+    Complex<Lanes> metal, next_metal;
+    if (p.metal == metal_custom) {
+      metal = custom_metal(wavelength);
+    }
+    else {
+      tables.metals(p.metal, cell, metal, next_metal);
+    }
     if (!whole) {
       const Lanes part = load_lanes(fraction);
-      Complex<Lanes> next_metal;
+      for (int &i : cell) {
+        i++;
+      }
       Lanes next_red, next_green, next_blue;
-      look_up(cell, 1, next_metal, next_red, next_green, next_blue);
-      metal = metal + part * (next_metal - metal);
+      tables.sensitivities(p.illuminant, cell, next_red, next_green, next_blue);
       s_red += part * (next_red - s_red);
       s_green += part * (next_green - s_green);
       s_blue += part * (next_blue - s_blue);
+      if (p.metal != metal_custom) {
+        metal = metal + part * (next_metal - metal);
+      }
     }
-    const Lanes f = reflected(wavelength, load_lanes(order), metal);
-    const Lanes step = load_lanes(step_nm);
+    const Lanes f = reflected(wavelength, node_order, metal);
     s_red *= step;
     s_green *= step;
     s_blue *= step;
@@ -530,22 +551,12 @@ struct Integrator {
   {
     for (int node = 0; node < rule_nodes(rule); node += lane_count) {
       const auto row = [&](const int number) {
-        float values[lane_count];
-        for (int lane = 0; lane < lane_count; lane++) {
-          values[lane] = tables.rule_value(p.illuminant, rule, number, node + lane);
-        }
-        return load_lanes(values);
+        return tables.rule_row(p.illuminant, rule, number, node);
       };
       const Lanes wavelength = row(0);
       Complex<Lanes> metal;
       if (p.metal == metal_custom) {
-        float n[lane_count], k[lane_count];
-        for (int lane = 0; lane < lane_count; lane++) {
-          const ComplexIndex index = custom_index(p, get_lane(wavelength, lane));
-          n[lane] = index.n;
-          k[lane] = index.k;
-        }
-        metal = {load_lanes(n), load_lanes(k)};
+        metal = custom_metal(wavelength);
       }
       else {
         metal = {row(4 + 2 * int(p.metal)), row(5 + 2 * int(p.metal))};
@@ -557,39 +568,15 @@ struct Integrator {
     }
   }
 
-  /* Entries number cell + offset of the visible range. */
-  ICW_DEVICE_METHOD void look_up(const int *cell,
-                                 const int offset,
-                                 Complex<Lanes> &metal,
-                                 Lanes &s_red,
-                                 Lanes &s_green,
-                                 Lanes &s_blue) const
+  ICW_DEVICE_METHOD Complex<Lanes> custom_metal(const Lanes wavelength) const
   {
-    float r[lane_count], g[lane_count], b[lane_count], n[lane_count], k[lane_count];
+    float n[lane_count], k[lane_count];
     for (int lane = 0; lane < lane_count; lane++) {
-      const Rgb s = tables.sensitivity(p.illuminant, cell[lane] + offset);
-      r[lane] = s.r;
-      g[lane] = s.g;
-      b[lane] = s.b;
+      const ComplexIndex index = custom_index(p, get_lane(wavelength, lane));
+      n[lane] = index.n;
+      k[lane] = index.k;
     }
-    if (p.metal == metal_custom) {
-      for (int lane = 0; lane < lane_count; lane++) {
-        const ComplexIndex index = custom_index(p, first_nm + float(cell[lane] + offset));
-        n[lane] = index.n;
-        k[lane] = index.k;
-      }
-    }
-    else {
-      for (int lane = 0; lane < lane_count; lane++) {
-        const ComplexIndex index = tables.metal(p.metal, cell[lane] + offset);
-        n[lane] = index.n;
-        k[lane] = index.k;
-      }
-    }
-    metal = {load_lanes(n), load_lanes(k)};
-    s_red = load_lanes(r);
-    s_green = load_lanes(g);
-    s_blue = load_lanes(b);
+    return {load_lanes(n), load_lanes(k)};
   }
 
   ICW_DEVICE_METHOD Rgb sum() const
@@ -597,12 +584,13 @@ struct Integrator {
     return {lanes_sum(red), lanes_sum(green), lanes_sum(blue)};
   }
 
-  /* Divided by the weights, so that a flat spectrum is exactly white at any step. */
+  /* Divided by the weights, so that a flat spectrum is exactly white at any step. The ripples of
+   * a density, without those that are hidden, may go below 0. */
   ICW_DEVICE_METHOD Rgb mean() const
   {
-    return {lanes_sum(red) / lanes_sum(weight_red),
-            lanes_sum(green) / lanes_sum(weight_green),
-            lanes_sum(blue) / lanes_sum(weight_blue)};
+    return {larger(lanes_sum(red), 0.0f) / lanes_sum(weight_red),
+            larger(lanes_sum(green), 0.0f) / lanes_sum(weight_green),
+            larger(lanes_sum(blue), 0.0f) / lanes_sum(weight_blue)};
   }
 
   /* f at the wavelengths of the nodes. */
@@ -612,7 +600,13 @@ struct Integrator {
   {
     const Lanes per_nm = 1.0f / wavelength;
     const Lanes film_ior = cauchy_index(p.oxide, per_nm);
-    const FilmPair<Lanes> r = levels(p, lanes(pair.cosine), film_ior, metal, per_nm);
+    FilmPair<Lanes> r = {};
+    if (bound) {
+      r = levels(p, lanes(pair.cosine), film_ior, metal, per_nm);
+    }
+    else {
+      r.contrast = levels_contrast(p, lanes(pair.cosine), film_ior, metal, per_nm);
+    }
     const Lanes sigma_first = lanes_sqrt(lobe_variance(p, first, wavelength, lanes(0.0f)));
     const Lanes sigma_second = lanes_sqrt(lobe_variance(p, second, wavelength, lanes(0.0f)));
     const Lanes zero_second = lanes_gaussian(lanes(q_second), sigma_second);
@@ -627,8 +621,9 @@ struct Integrator {
       const float groove_part = 1.0f - ridge_part;
       Lanes eta = ridge_part * r.ridge + groove_part * r.groove -
                   ridge_part * groove_part * r.contrast;
-      if (lanes_largest(eta) > 1.0f - 4.0f * ridge_part * groove_part) {
-        eta = bounded_mirror(p, *bound, eta, film_ior, metal, per_nm);
+      const Lanes limit = contrast_limit(film_ior, metal);
+      if (lanes_largest(eta + ridge_part * groove_part * limit) > 1.0f) {
+        eta = bounded_mirror(p, *bound, eta, limit, film_ior, metal, per_nm);
       }
       f += lanes_gaussian(lanes(q_first), sigma_first) *
            (eta * zero_second + square(open_first) * r.contrast * others_second);
@@ -663,7 +658,8 @@ struct Integrator {
     if (orders == Orders::Dense) {
       const Lanes per_shift = first.spacing_nm * per_nm;
       return per_shift *
-             order_density(q_first * per_shift, sigma * per_shift, first.duty, dense_fringes);
+             order_density(
+                 q_first * per_shift, sigma * per_shift, first.duty, p.variation, dense_ripples);
     }
     const Lanes shift = node_order * wavelength / first.spacing_nm;
     const Lanes amplitude = order_amplitude(node_order, lanes(first.duty));
@@ -671,6 +667,43 @@ struct Integrator {
                               lanes_sqrt(lobe_variance(p, first, wavelength, shift)) :
                               sigma;
     return amplitude * amplitude * lanes_gaussian(q_first - shift, sigma_m);
+  }
+};
+
+/* Nodes, gathered until all lanes are full. */
+template<typename Tables>
+struct NodeQueue {
+  Integrator<Tables> &integrator;
+  int count = 0;
+  float wavelength_nm[lane_count], step_nm[lane_count], order[lane_count];
+
+  ICW_DEVICE_METHOD explicit NodeQueue(Integrator<Tables> &to) : integrator(to)
+  {
+  }
+
+  ICW_DEVICE_METHOD void add(const float node_nm, const float node_step_nm, const float node_order)
+  {
+    wavelength_nm[count] = node_nm;
+    step_nm[count] = node_step_nm;
+    order[count] = node_order;
+    if (++count == lane_count) {
+      flush();
+    }
+  }
+
+  /* Adds up the nodes gathered so far. */
+  ICW_DEVICE_METHOD void flush()
+  {
+    if (count == 0) {
+      return;
+    }
+    for (; count < lane_count; count++) {
+      wavelength_nm[count] = wavelength_nm[0];
+      step_nm[count] = 0.0f;
+      order[count] = order[0];
+    }
+    count = 0;
+    integrator.add_lanes(load_lanes(wavelength_nm), load_lanes(step_nm), load_lanes(order));
   }
 };
 
@@ -734,46 +767,84 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
     return {0.0f, 0.0f, 0.0f};
   }
 
+  /* Phase of the film over 1 / lambda, there and back. */
   const float sine_squared = 1.0f - square(pair.cosine);
   const float blue_ior = cauchy_index(p.oxide, 1.0f / blue_nm);
-  const float film_per_nm = 4.0f * pi * sqrtf(larger(square(blue_ior) - sine_squared, 0.0f)) *
-                            (p.oxide_nm + p.groove_nm) / square(blue_nm);
+  const float film_path_nm = 2.0f * sqrtf(larger(square(blue_ior) - sine_squared, 0.0f)) *
+                             (p.oxide_nm + p.groove_nm);
+
+  /* The mirror order by itself. */
+  const auto rule_for_film = [&]() {
+    int rule = 0;
+    while (rule < rule_count && film_path_nm >= rule_path_nm(rule)) {
+      rule++;
+    }
+    return rule;
+  };
+  const float order_1 = first_nm / spacing_nm;
+  const bool alone = q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) <
+                     order_1;
+  if (alone) {
+    nodes.orders = Orders::None;
+    const int rule = rule_for_film();
+    if (rule < rule_count) {
+      nodes.add_rule(rule);
+      return nodes.sum();
+    }
+  }
+
   const float lamp_per_nm = illuminant_bandwidth_per_nm(p.illuminant);
+  const float lamp_part = lamp_per_nm < bright_lamp_per_nm ? 0.7f : 0.8f;
 
   /* The lobes' widths in wavelength, and in orders. */
   const auto sigma_nm = [&](const float wavelength_nm) {
     return wavelength_nm / larger(q, 1e-6f) *
            sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q));
   };
-  const auto step_nm = [&](const float lobe_per_nm) {
+  const auto sigma_orders = [&](const float wavelength_nm) {
+    return sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q)) * spacing_nm / wavelength_nm;
+  };
+  const float own_orders = sigma_orders(last_nm);
+  const bool smooth = own_orders > smooth_orders;
+  const auto step_nm = [&](const float wavelength_nm, const float lobe_per_nm) {
     /* Lobe and lamp as Gaussians, whose product is narrower than either; of a thick film the
      * second pass counts, too. */
-    return two_pi / (sqrtf(square(lobe_per_nm) + square(0.7f * lamp_per_nm)) +
-                     larger(0.7f * film_per_nm, 1.4f * film_per_nm - 0.07f));
+    const float film_path = larger(0.7f * film_path_nm, 2.6f * film_path_nm - 4600.0f);
+    return two_pi / (sqrtf(square(lobe_per_nm) + square(lamp_part * lamp_per_nm)) +
+                     two_pi * film_path / square(wavelength_nm));
   };
-  const float blurred_orders = sqrtf(lobe_variance(p, nodes.first, first_nm, q)) * spacing_nm /
-                               last_nm;
+  /* The grid is even in 1 / lambda, in which film and orders are; its step where the eye sees
+   * most. `path_nm` is what varies beside film and lamp, over 1 / lambda. */
+  const auto grid_step = [&](const float path_nm) {
+    return step_nm(grid_middle_nm, two_pi * path_nm / square(grid_middle_nm)) /
+           square(grid_middle_nm);
+  };
+  const float lobe_path_nm = gaussian_bandwidth / two_pi * square(grid_last_nm) /
+                             sigma_nm(grid_last_nm);
 
   /* One order after the other. */
   if (!mirror && order_most - float(order_first) < float(window_limit)) {
+    const auto step_in = [&](const float centre_nm, const float sigma) {
+      return step_nm(clamped(centre_nm, blue_nm, last_nm), gaussian_bandwidth / sigma);
+    };
     float node_count = 0.0f;
     const int order_last = int(order_most);
     for (int m = order_first; m <= order_last; m++) {
-      const float sigma = sigma_nm(clamped(q * spacing_nm / float(m), first_nm, last_nm));
-      node_count += 2.0f * lobe_reach * sigma / step_nm(gaussian_bandwidth / sigma) + 1.0f;
+      const float centre_nm = q * spacing_nm / float(m);
+      const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
+      node_count += 2.0f * lobe_reach * sigma / step_in(centre_nm, sigma) + 1.0f;
     }
-    const float sigma_least = sigma_nm(first_nm);
-    const float grid_step = step_nm(blurred_orders > 0.7f ? 0.0f :
-                                                            gaussian_bandwidth / sigma_least);
-    if (node_count < (grid_last_nm - grid_first_nm) / grid_step) {
+    if (node_count <
+        (1.0f / grid_first_nm - 1.0f / grid_last_nm) / grid_step(smooth ? 0.0f : lobe_path_nm)) {
       nodes.orders = Orders::Single;
-      const float sigma_last = sigma_nm(
-          clamped(q * spacing_nm / float(order_last), first_nm, last_nm));
-      nodes.whole = step_nm(gaussian_bandwidth / sigma_last) > whole_step_nm;
+      NodeQueue<Tables> queue(nodes);
+      const float last_centre_nm = q * spacing_nm / float(order_last);
+      nodes.whole = step_in(last_centre_nm, sigma_nm(clamped(last_centre_nm, first_nm, last_nm))) >
+                    whole_step_nm;
       for (int m = order_first; m <= order_last; m++) {
         const float centre_nm = q * spacing_nm / float(m);
         const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
-        const float exact_step = step_nm(gaussian_bandwidth / sigma);
+        const float exact_step = step_in(centre_nm, sigma);
         const float step = nodes.whole ? floorf(exact_step) : exact_step;
         const bool bright = lamp_per_nm < bright_lamp_per_nm && sigma < bright_sigma_nm &&
                             centre_nm > bright_first_nm && centre_nm < bright_last_nm;
@@ -788,56 +859,65 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
           node += step * ceilf((first_nm - node) / step);
         }
         for (; node < end; node += step) {
-          nodes.add(node, step, float(m));
+          queue.add(node, step, float(m));
         }
       }
-      nodes.flush();
+      queue.flush();
       return nodes.sum();
     }
   }
 
   /* All orders at each node of a grid over the visible range. */
-  float lobe_per_nm = 0.0f;
-  const float slit_per_nm = two_pi * smaller(nodes.first.duty, 1.0f - nodes.first.duty) * q *
-                            spacing_nm / square(blue_nm);
-  if (!mirror &&
-      two_pi * q * spacing_nm > (film_per_nm + 1.25f * lamp_per_nm) * square(last_nm)) {
-    nodes.orders = Orders::Dense;
-    nodes.dense_fringes = slit_per_nm < 0.4f;
-    lobe_per_nm = nodes.dense_fringes ? slit_per_nm : 0.0f;
+  float path_nm = 0.0f;
+  const float path_1_nm = q * spacing_nm;
+  /* A ripple of so many turns for each order is hidden by the lobes' width, and as the eye blurs
+   * it. */
+  const auto seen = [&](const float turns) {
+    return 2.0f * square(pi * turns * own_orders) +
+               illuminant_blur_per_nm(p.illuminant) *
+                   larger(turns * path_1_nm - film_path_nm, 0.0f) <
+           hidden;
+  };
+  const float slit = smaller(nodes.first.duty, 1.0f - nodes.first.duty);
+  const int ripples = seen(1.0f - slit) ? 2 : seen(slit) ? 1 : 0;
+  const float ripple_path_nm = path_1_nm * (ripples == 2 ? 1.0f - slit :
+                                            ripples == 1 ? slit :
+                                                           0.0f);
+  if (alone) {
+    path_nm = 0.0f;
   }
-  else if (blurred_orders < 0.7f) {
-    lobe_per_nm = gaussian_bandwidth / sigma_nm(first_nm);
-    if (2.0f * apart_reach * blurred_orders * last_nm < first_nm) {
+  else if (!mirror && !seen(1.0f) && path_1_nm > larger(2.0f, 10.0f * own_orders) * last_nm) {
+    nodes.orders = Orders::Dense;
+    nodes.dense_ripples = ripples;
+    path_nm = ripple_path_nm;
+  }
+  else if (!smooth) {
+    path_nm = lobe_path_nm;
+    if (2.0f * apart_reach * sigma_orders(first_nm) < 1.0f) {
       nodes.orders = Orders::Single;
     }
   }
-  else if (blurred_orders * nodes.first.duty < 0.45f) {
-    lobe_per_nm = smaller(slit_per_nm, 0.4f);
+  else {
+    path_nm = ripple_path_nm;
   }
-  const float order_1 = first_nm / spacing_nm;
-  if (q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) < order_1) {
-    nodes.orders = Orders::None;
-    lobe_per_nm = 0.0f;
-  }
-  if (lobe_per_nm == 0.0f) {
-    const float film_path_nm = film_per_nm * square(blue_nm) / two_pi;
-    for (int rule = 0; rule < rule_count; rule++) {
-      if (film_path_nm < rule_path_nm(rule)) {
-        nodes.add_rule(rule);
-        return nodes.sum();
-      }
+  if (path_nm == 0.0f) {
+    const int rule = rule_for_film();
+    if (rule < rule_count) {
+      nodes.add_rule(rule);
+      return nodes.sum();
     }
   }
-  const float exact_step = step_nm(lobe_per_nm);
-  nodes.whole = exact_step > whole_step_nm;
-  const float step = nodes.whole ? floorf(exact_step) : exact_step;
-  const float begin = grid_first_nm + (nodes.whole ? floorf(0.5f * step) : 0.5f * step);
-  const float order_nm = q * spacing_nm;
-  for (float node = begin; node < grid_last_nm; node += step) {
-    nodes.add(node, step, larger(floorf(order_nm / node + 0.5f), 1.0f));
+  const float exact_step = grid_step(path_nm);
+  const float begin = 1.0f / grid_last_nm, span = 1.0f / grid_first_nm - begin;
+  const int block_count = int(ceilf(span / (exact_step * float(lane_count))));
+  const float step = span / float(block_count * lane_count);
+  for (int block = 0; block < block_count; block++) {
+    const Lanes k = float(block * lane_count) + 0.5f + lane_numbers();
+    const Lanes per_nm = begin + step * k;
+    const Lanes node = 1.0f / per_nm;
+    nodes.add_lanes(
+        node, step * node * node, lanes_max(lanes_round(path_1_nm * per_nm), lanes(1.0f)));
   }
-  nodes.flush();
   return nodes.mean();
 }
 

@@ -12,6 +12,7 @@
 
 #pragma once
 
+#include "complex.h"
 #include "illuminants.h"
 #include "metals.h"
 
@@ -46,7 +47,12 @@ ICW_DEVICE constexpr int rule_first_node(const int rule)
 constexpr int rules_size = rule_rows * (8 + 16 + 24);
 constexpr int material_tables_size = rule_tables_offset + illuminant_count * rules_size;
 
-/* `Read` is a function object from the number of a float to its value. */
+ICW_DEVICE constexpr int metal_index(const Metal metal, const int cell)
+{
+  return metal_tables_offset + 2 * (int(metal) * visible_count + cell);
+}
+
+/* `Read` is a function object from the number of a float to its place. */
 template<typename Read>
 struct MaterialTables {
   Read read;
@@ -55,22 +61,51 @@ struct MaterialTables {
   ICW_DEVICE_METHOD Rgb sensitivity(const Illuminant illuminant, const int cell) const
   {
     const int i = int(illuminant) * sensitivity_table_size + 3 * cell;
-    return {read(i), read(i + 1), read(i + 2)};
+    return {*read(i), *read(i + 1), *read(i + 2)};
+  }
+
+  /* Of a cell for each lane. */
+  ICW_DEVICE_METHOD void sensitivities(const Illuminant illuminant,
+                                       const int *cells,
+                                       Lanes &red,
+                                       Lanes &green,
+                                       Lanes &blue) const
+  {
+    const float *at[lane_count];
+    for (int lane = 0; lane < lane_count; lane++) {
+      at[lane] = read(int(illuminant) * sensitivity_table_size + 3 * cells[lane]);
+    }
+    Lanes next_red;
+    load_records(at, red, green, blue, next_red);
   }
 
   ICW_DEVICE_METHOD ComplexIndex metal(const Metal metal, const int cell) const
   {
-    const int i = metal_tables_offset + 2 * (int(metal) * visible_count + cell);
-    return {read(i), read(i + 1)};
+    const float *const index = read(metal_index(metal, cell));
+    return {index[0], index[1]};
   }
 
-  ICW_DEVICE_METHOD float rule_value(const Illuminant illuminant,
-                                     const int rule,
-                                     const int row,
-                                     const int node) const
+  /* Of a cell for each lane, and of the next. */
+  ICW_DEVICE_METHOD void metals(const Metal metal,
+                                const int *cells,
+                                Complex<Lanes> &index,
+                                Complex<Lanes> &next) const
   {
-    return read(rule_tables_offset + int(illuminant) * rules_size +
-                rule_rows * rule_first_node(rule) + row * rule_nodes(rule) + node);
+    const float *at[lane_count];
+    for (int lane = 0; lane < lane_count; lane++) {
+      at[lane] = read(metal_index(metal, cells[lane]));
+    }
+    load_records(at, index.re, index.im, next.re, next.im);
+  }
+
+  /* Part of a row of a rule, from `node`. */
+  ICW_DEVICE_METHOD Lanes rule_row(const Illuminant illuminant,
+                                   const int rule,
+                                   const int row,
+                                   const int node) const
+  {
+    return load_lanes(read(rule_tables_offset + int(illuminant) * rules_size +
+                           rule_rows * rule_first_node(rule) + row * rule_nodes(rule) + node));
   }
 
   /* Sensitivity at a wavelength, under light of equal energy. */

@@ -65,13 +65,14 @@ static Rgb sampled_spectrum(const PhysicalParams &p,
                          0.0f};
   Integrator<MaterialTables<ReadFloats>> nodes = {
       p, geometry, tables, p.across, p.along, geometry.u, geometry.v, orders};
+  NodeQueue<MaterialTables<ReadFloats>> queue(nodes);
   const float step = (last_nm - first_nm) / float(count);
   for (int k = 0; k < count; k++) {
     const float wavelength_nm = first_nm + step * (float(k) + 0.5f);
     const float order = std::floor(geometry.u * p.across.spacing_nm / wavelength_nm + 0.5f);
-    nodes.add(wavelength_nm, step, larger(order, 1.0f));
+    queue.add(wavelength_nm, step, larger(order, 1.0f));
   }
-  nodes.flush();
+  queue.flush();
   return nodes.mean();
 }
 

@@ -14,9 +14,9 @@ namespace icwafer::fuzz {
 inline const std::vector<float> floats = material_tables(test::working_spaces[0].xyz_to_rgb);
 
 struct Read {
-  float operator()(const int i) const
+  const float *operator()(const int i) const
   {
-    return floats.at(size_t(i));
+    return &floats.at(size_t(i));
   }
 };
 

@@ -33,7 +33,7 @@ int main()
     matrix[i / 3][i % 3] = in[i];
   }
   const std::vector<float> tables = material_tables(matrix);
-  const auto read = [&tables](const int i) { return tables[size_t(i)]; };
+  const auto read = [&tables](const int i) { return &tables[size_t(i)]; };
 
   const float *p = in.data() + matrix_size;
   const float spacing_nm = p[0], width_nm = p[1], cross_spacing_nm = p[2], cross_width_nm = p[3];

@@ -160,9 +160,9 @@ class Cs348bSurface : public Surface {
 struct ReadFloats {
   const float *data;
 
-  float operator()(const int i) const
+  const float *operator()(const int i) const
   {
-    return data[i];
+    return data + i;
   }
 };
 

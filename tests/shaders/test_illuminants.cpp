@@ -128,6 +128,23 @@ TEST_P(LampTest, Bandwidth)
   EXPECT_GT(largest_amplitude(stated / 1.25), 1e-3);
 }
 
+/* The stated blur holds for each channel. */
+TEST_P(LampTest, Blur)
+{
+  const double stated = illuminant_blur_per_nm(illuminant);
+  double worst = 0.0;
+  for (double path_nm = 4000.0; path_nm < 50000.0; path_nm += 50.0) {
+    for (int c = 0; c < 3; c++) {
+      std::complex<double> sum = 0.0;
+      for (int i = 0; i < visible_count; i++) {
+        sum += std::polar(mapped[i][c], 2.0 * M_PI * path_nm / (visible_first_nm + i));
+      }
+      worst = std::max(worst, std::abs(sum) / std::max(std::exp(-stated * path_nm), 1e-3));
+    }
+  }
+  EXPECT_LT(worst, 1.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Lamps,
                          LampTest,
                          testing::Combine(testing::ValuesIn(working_spaces),

@@ -46,9 +46,8 @@ TEST(Lanes, AgreeWithTheLibrary)
   expect_lanes(-30.0f, 30.0f, 1e-6, lanes_exp2, [](const double x) { return std::exp2(x); });
   expect_lanes(0.0f, 1000.0f, 1e-6, lanes_sqrt, [](const double x) { return std::sqrt(x); });
   /* The exponent is rounded to float before: 1e-6 of it is relative error of the result. */
-  expect_lanes(-4.0f, 4.0f, 2e-6, lanes_bell, [](const double x) {
-    return std::exp(-0.5 * x * x);
-  });
+  expect_lanes(
+      -4.0f, 4.0f, 2e-6, lanes_bell, [](const double x) { return std::exp(-0.5 * x * x); });
   /* Where sine and cosine vanish, turns themselves end in rounding. */
   for (int k = -100000; k <= 100000; k++) {
     const float turns = float(k) * 1.7e-4f;
@@ -229,14 +228,16 @@ TEST_P(Film, AgreesWithTheReference)
   for (const float variation : {0.0f, 0.02f, 0.1f}) {
     for (const float duty : {0.05f, 0.5f}) {
       for (const float spacing_nm : {500.0f, 1500.0f, 10000.0f}) {
-        expect_agreement(params_of(
-            spacing_nm, 20.0f, illuminant_equal_energy, variation, GetParam(), duty));
+        expect_agreement(
+            params_of(spacing_nm, 20.0f, illuminant_equal_energy, variation, GetParam(), duty));
       }
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Thickness, Film, testing::Values(0.0f, 530.0f, 1500.0f, 3000.0f, 5000.0f));
+INSTANTIATE_TEST_SUITE_P(Thickness,
+                         Film,
+                         testing::Values(0.0f, 530.0f, 1500.0f, 3000.0f, 5000.0f));
 
 /* Wires that cross: along the first orders of either family, and between them. */
 TEST(Cross, AgreesWithTheReference)
@@ -293,33 +294,39 @@ TEST(Seams, SpacingAndDeflectionAreContinuous)
 
 /* A line of light at one wavelength: the metal's index stays that of the table. */
 struct LineTables {
-  MaterialTables<ReadFloats> metals;
+  MaterialTables<ReadFloats> tables;
   int nm;
 
   /* The same width as the sodium line of the colour table, for which steps are chosen. */
-  Rgb sensitivity(Illuminant, const int cell) const
+  void sensitivities(Illuminant, const int *cells, Lanes &red, Lanes &green, Lanes &blue) const
   {
-    const float t = 0.5f * float(visible_first_nm + cell - nm);
-    const float s = 0.19947114f * std::exp(-0.5f * t * t);
-    return {s, s, s};
+    float s[lane_count];
+    for (int lane = 0; lane < lane_count; lane++) {
+      const float t = 0.5f * float(visible_first_nm + cells[lane] - nm);
+      s[lane] = 0.19947114f * std::exp(-0.5f * t * t);
+    }
+    red = green = blue = load_lanes(s);
   }
 
-  ComplexIndex metal(const Metal metal, const int cell) const
+  void metals(const Metal metal,
+              const int *cells,
+              Complex<Lanes> &index,
+              Complex<Lanes> &next) const
   {
-    return metals.metal(metal, cell);
+    tables.metals(metal, cells, index, next);
   }
 
   /* All nodes at the line. */
-  float rule_value(Illuminant, const int rule, const int row, int) const
+  Lanes rule_row(Illuminant, const int rule, const int row, int) const
   {
     if (row == 0) {
-      return float(nm);
+      return lanes(float(nm));
     }
     if (row < 4) {
-      return 1.0f / float(rule_nodes(rule));
+      return lanes(1.0f / float(rule_nodes(rule)));
     }
-    const ComplexIndex index = metal(Metal((row - 4) / 2), nm - visible_first_nm);
-    return row % 2 == 0 ? index.n : index.k;
+    const ComplexIndex index = tables.metal(Metal((row - 4) / 2), nm - visible_first_nm);
+    return lanes(row % 2 == 0 ? index.n : index.k);
   }
 };
 
@@ -345,7 +352,8 @@ TEST(Direction, FollowsTheConicalLaw)
       double sum = 0.0, u_sum = 0.0, v_sum = 0.0;
       for (int a = -300; a <= 300; a++) {
         for (int b = -8; b <= 8; b++) {
-          const LocalDirection i = direction(float(expected + a * 2e-5), -o.tau + float(b) * 5e-5f);
+          const LocalDirection i = direction(float(expected + a * 2e-5),
+                                             -o.tau + float(b) * 5e-5f);
           const double u = double(i.nu) + o.nu, v = double(i.tau) + o.tau;
           const double cosine = 0.5 * (double(i.n) + o.n);
           const double contrast = reference::physical_contrast(

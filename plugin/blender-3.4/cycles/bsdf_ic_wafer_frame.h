@@ -17,9 +17,9 @@ struct IcWaferTableRead {
   KernelGlobals kg;
   int offset;
 
-  ccl_device_inline_method float operator()(const int i) const
+  ccl_device_inline_method ccl_global const float *operator()(const int i) const
   {
-    return kernel_data_fetch(lookup_table, offset + i);
+    return &kernel_data_fetch(lookup_table, offset + i);
   }
 };
 }  // namespace

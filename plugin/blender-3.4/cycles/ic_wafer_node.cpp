@@ -4,6 +4,7 @@
 
 #include "kernel/icwafer/cs348b.h"
 #include "kernel/icwafer/material_tables.h"
+#include "scene/shader.h"
 #include "scene/svm.h"
 
 #include "util/thread.h"
@@ -147,6 +148,21 @@ void ICWaferBsdfNode::compile_physical(SVMCompiler &compiler)
 void ICWaferBsdfNode::compile(OSLCompiler & /*compiler*/)
 {
   /* Closures of OSL are a fixed list in the host; materials with this node need SVM. */
+}
+
+bool has_ic_wafer(const vector<Shader *> &shaders)
+{
+  const NodeType *const type = ICWaferBsdfNode::get_node_type();
+  foreach (const Shader *shader, shaders) {
+    if (shader->graph) {
+      foreach (const ShaderNode *node, shader->graph->nodes) {
+        if (node->type == type) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
 vector<float> ic_wafer_tables(const float3 xyz_to_r, const float3 xyz_to_g, const float3 xyz_to_b)

@@ -45,6 +45,9 @@ class ICWaferBsdfNode : public BsdfNode {
                        int4 extra);
 };
 
+/* Whether any of the shaders has the node, and so needs the tables. */
+bool has_ic_wafer(const vector<Shader *> &shaders);
+
 /* icwafer::material_tables for the rows of the matrix from XYZ. */
 vector<float> ic_wafer_tables(const float3 xyz_to_r, const float3 xyz_to_g, const float3 xyz_to_b);
 
