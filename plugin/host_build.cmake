@@ -89,50 +89,7 @@ if(ICWAFER_BUILD STREQUAL "blender")
   )
   install(DIRECTORY ${host_stage}/share/locale DESTINATION ${version_folder}/datafiles OPTIONAL)
 
-  # The add-on, and of the Python package what it needs: no commands, no build, no plots.
-  set(installed_scripts ${version_folder}/scripts)
-  set(package ${PROJECT_SOURCE_DIR}/scripts/python/icwafer)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/plugin/addon/
-    DESTINATION ${installed_scripts}/addons/ic_wafer
-    PATTERN __pycache__ EXCLUDE
-  )
-  install(
-    FILES
-      ${package}/__init__.py
-      ${package}/attributes.py
-      ${package}/errors.py
-      ${package}/files.py
-      ${package}/suggest.py
-      ${package}/toml_lines.py
-    DESTINATION ${installed_scripts}/modules/icwafer
-  )
-  install(
-    DIRECTORY
-      ${package}/chips
-      ${package}/layout_import
-      ${package}/pictures
-      ${package}/portrait
-      ${package}/scene
-    DESTINATION ${installed_scripts}/modules/icwafer
-    PATTERN __pycache__ EXCLUDE
-    PATTERN command.py EXCLUDE
-    PATTERN library EXCLUDE
-    PATTERN map_picture.py EXCLUDE
-    PATTERN plot.py EXCLUDE
-    REGEX "/portrait/render[.]py$" EXCLUDE
-  )
-  install(FILES ${package}/assets/__init__.py ${package}/assets/materials.py
-    DESTINATION ${installed_scripts}/modules/icwafer/assets
-  )
-
-  # The table of material presets and, where `scripts/icwafer assets` has built it, the library.
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/blend_assets/library/
-    DESTINATION ${version_folder}/datafiles/icwafer
-  )
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/assets/
-    DESTINATION ${version_folder}/datafiles/icwafer OPTIONAL
-    FILES_MATCHING PATTERN "*.blend"
-  )
+  include(${CMAKE_CURRENT_LIST_DIR}/install_addon.cmake)
 else()
   install(PROGRAMS ${host_binary}/bin/cycles DESTINATION .)
 endif()

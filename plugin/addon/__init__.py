@@ -37,6 +37,7 @@ _CLASSES = (
     add_die.MESH_OT_ic_die_add,
     add_wafer.MESH_OT_ic_wafer_add,
     import_chip.IMPORT_SCENE_OT_ic_chip,
+    import_chip.IMPORT_SCENE_OT_ic_chip_choose,
     attributes_panel.WM_OT_ic_attribute_copy,
     attributes_panel.OBJECT_OT_ic_material_add,
     attributes_panel.DATA_PT_ic_attributes,

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .errors import reported
 from .options import ChipOptions
 from .placing import PlacingOptions
 
 if TYPE_CHECKING:
     from icwafer.chips.model import DieSpec
+    from icwafer.chips.wafer import Wafer
     from icwafer.portrait.wires import Wires
 
 
@@ -48,13 +48,14 @@ def add_wires(
     from icwafer.scene.material import chip_material
     from icwafer.scene.parts import metal_material
     from icwafer.scene.portrait import SIDE_COLOUR, WIRE_COLOUR, WIRE_ROUGHNESS
+    from icwafer.scene.shared import shared
     from icwafer.scene.wires import wires_mesh
 
     mesh = wires_mesh(wires)
     mesh.name = name
     values = operator.node_values()
-    mesh.materials.append(chip_material("Wires", values, WIRE_COLOUR, WIRE_ROUGHNESS))
-    mesh.materials.append(metal_material("Wire Sides", SIDE_COLOUR, WIRE_ROUGHNESS))
+    mesh.materials.append(shared(chip_material("Wires", values, WIRE_COLOUR, WIRE_ROUGHNESS)))
+    mesh.materials.append(shared(metal_material("Wire Sides", SIDE_COLOUR, WIRE_ROUGHNESS)))
     longest_mm = max(spec.width_mm, spec.height_mm)
     operator.add_mesh(context, mesh, longest_mm, main_direction_rad(generate(spec)))
 
@@ -66,22 +67,9 @@ class MESH_OT_ic_die_add(ChipOptions, bpy.types.Operator):
     bl_label = "IC Die"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.mode in {"OBJECT", "EDIT_MESH"}
+    modes = frozenset({"OBJECT", "EDIT_MESH"})
 
-    @reported
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        from icwafer.chips.presets import PRESETS
-
-        self.fill_from_preset()
-        add_die(self, context, self.adjusted(PRESETS[self.preset].dies[0]), "IC Die")
-        return {"FINISHED"}
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        self.draw_chip(layout)
-        self.draw_place(layout)
-        self.draw_groups(layout.column())
+    def add(
+        self, context: bpy.types.Context, dies: tuple[DieSpec, ...], _wafer: Wafer | None
+    ) -> None:
+        add_die(self, context, dies[0], "IC Die")

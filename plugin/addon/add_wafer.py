@@ -9,8 +9,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .add_die import gap_nm
-from .busy import progress
-from .errors import reported
+from .busy import Steps, finished
 from .options import ChipOptions
 
 if TYPE_CHECKING:
@@ -39,8 +38,8 @@ class WaferOptions:
         ],
     )
     edge_exclusion_mm: FloatProperty(
-        name="Edge Exclusion (mm)",
-        description="Rim without dies in mm",
+        name="Edge Excl. (mm)",
+        description="Edge exclusion: rim without dies, in mm",
         default=3.0,
         min=0.0,
         max=30.0,
@@ -80,6 +79,16 @@ class WaferOptions:
         min=0,
         max=2**31 - 1,
     )
+    viewport: EnumProperty(
+        name="Viewport",
+        description="What viewports show of the dies, unless they render with Cycles. Renders show "
+        "all of it anyway",
+        items=[
+            ("PLATES", "Plates", "A plate for each die: quick on any machine"),
+            ("BLOCKS", "Blocks", "All blocks of all dies, often millions: slow without a graphics "
+             "card"),
+        ],
+    )
 
     def wafer_numbers_of(self, wafer: Wafer) -> dict[str, Any]:
         """The panel's numbers that a wafer says."""
@@ -91,13 +100,13 @@ class WaferOptions:
             **{name: getattr(wafer, name) for name in names},
         }
 
-    def add_wafer(
+    def wafer_in_steps(
         self, context: bpy.types.Context, dies: tuple[DieSpec, ...], wafer: Wafer, name: str
-    ) -> None:
+    ) -> Steps[None]:
         """Adds a wafer of these dies, with the panel's numbers."""
         from icwafer.chips.adjust import WaferChange, adjusted_wafer
         from icwafer.chips.die import generate, main_direction_rad
-        from icwafer.scene.wafer import add_wafer
+        from icwafer.scene.wafer import wafer_in_steps
 
         layout = adjusted_wafer(
             dies,
@@ -113,10 +122,14 @@ class WaferOptions:
                 seed=self.wafer_seed,
             ),
         )
-        with progress(context) as tell:
-            thing = add_wafer(
-                layout, context.collection, self.parts(), name, gap_nm(dies[0]), tell
-            )
+        thing = yield from wafer_in_steps(
+            layout,
+            context.collection,
+            self.parts(),
+            name,
+            gap_nm(dies[0]),
+            plates=self.viewport == "PLATES",
+        )
         self.place(context, thing, layout.wafer.diameter_mm, main_direction_rad(generate(dies[0])))
 
     def draw_wafer(self, layout: bpy.types.UILayout) -> None:
@@ -132,6 +145,7 @@ class WaferOptions:
         column = layout.column(align=True)
         column.prop(self, "drift")
         column.prop(self, "wafer_seed")
+        layout.prop(self, "viewport")
 
 
 class MESH_OT_ic_wafer_add(ChipOptions, WaferOptions, bpy.types.Operator):
@@ -141,31 +155,19 @@ class MESH_OT_ic_wafer_add(ChipOptions, WaferOptions, bpy.types.Operator):
     bl_label = "IC Wafer"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.mode == "OBJECT"
-
-    @reported
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        from icwafer.chips.presets import PRESETS
+    def add(
+        self, context: bpy.types.Context, dies: tuple[DieSpec, ...], wafer: Wafer | None
+    ) -> None:
         from icwafer.chips.presets.parts import drifting_wafer
 
-        self.fill_from_preset()
-        preset = PRESETS[self.preset]
-        dies = (self.adjusted(preset.dies[0]), *preset.dies[1:])
-        self.add_wafer(context, dies, preset.wafer or drifting_wafer(), "IC Wafer")
-        return {"FINISHED"}
+        wafer = wafer or drifting_wafer()
+        finished(context, self.wafer_in_steps(context, dies, wafer, "IC Wafer"))
 
     def numbers_of(self, preset: Layout) -> dict[str, Any]:
         from icwafer.chips.presets.parts import drifting_wafer
 
         return super().numbers_of(preset) | self.wafer_numbers_of(preset.wafer or drifting_wafer())
 
-    def draw(self, _context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        self.draw_chip(layout)
+    def draw_thing(self, layout: bpy.types.UILayout) -> None:
+        super().draw_thing(layout)
         self.draw_wafer(layout)
-        self.draw_place(layout)
-        self.draw_groups(layout.column())

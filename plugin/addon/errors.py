@@ -10,10 +10,12 @@ import bpy
 
 
 def reported(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
-    """An operator's `execute` that reports bad input instead of raising it."""
+    """An operator's `execute` or the like that reports bad input instead of raising it."""
 
     @functools.wraps(execute)
-    def wrapped(self: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
+    def wrapped(
+        self: bpy.types.Operator, context: bpy.types.Context, *arguments: object
+    ) -> set[str]:
         try:
             from icwafer.errors import IcwaferError
         except ImportError as error:
@@ -21,7 +23,7 @@ def reported(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
             self.report({"ERROR"}, text)
             return {"CANCELLED"}
         try:
-            return execute(self, context)
+            return execute(self, context, *arguments)
         except IcwaferError as error:
             self.report({"ERROR"}, str(error))
         except OSError as error:

@@ -40,7 +40,7 @@ def _preset_items(_owner: object, _context: object) -> list[tuple[str, str, str]
 
 
 class MATERIAL_OT_ic_wafer_preset(bpy.types.Operator):
-    """Set the IC Wafer BSDF of the active material to a preset; a new one if there is none"""
+    """Set the IC Wafer BSDF of the active material, wherever it is used; or make a new one"""
 
     bl_idname = "material.ic_wafer_preset"
     bl_label = "IC Wafer Preset"

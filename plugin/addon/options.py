@@ -20,10 +20,13 @@ from bpy.props import (
     StringProperty,
 )
 
+from .busy import all_or_nothing
+from .errors import reported
 from .placing import PlacingOptions, items_of
 
 if TYPE_CHECKING:
     from icwafer.chips.model import DieSpec, Group, Layout
+    from icwafer.chips.wafer import Wafer
 
 #: More would make Blender wait: so many take about three seconds of computing.
 MOST_BLOCKS = 1_000_000
@@ -39,6 +42,20 @@ def preset_items(_owner: object, _context: object) -> list[tuple[str, str, str]]
 
         _preset_items.extend((name, *TITLES[name]) for name in PRESETS)
     return _preset_items
+
+
+def side_mm(name: str) -> FloatProperty:
+    """A property for the real width or height of a die."""
+    return FloatProperty(
+        name=f"{name} (mm)",
+        description=f"Real {name.lower()} of the die in mm: a larger one has more blocks",
+        min=0.1,
+        max=300.0,
+        soft_min=1.0,
+        soft_max=33.0,
+        precision=2,
+        step=10,
+    )
 
 
 class IC_PG_group(bpy.types.PropertyGroup):
@@ -103,26 +120,8 @@ class ChipOptions(PlacingOptions):
         min=0,
         max=2**31 - 1,
     )
-    width_mm: FloatProperty(
-        name="Width (mm)",
-        description="Real width of the die in mm: a larger one has more blocks",
-        min=0.1,
-        max=300.0,
-        soft_min=1.0,
-        soft_max=33.0,
-        precision=2,
-        step=10,
-    )
-    height_mm: FloatProperty(
-        name="Height (mm)",
-        description="Real height of the die in mm: a larger one has more blocks",
-        min=0.1,
-        max=300.0,
-        soft_min=1.0,
-        soft_max=33.0,
-        precision=2,
-        step=10,
-    )
+    width_mm: side_mm("Width")
+    height_mm: side_mm("Height")
     block_um: FloatProperty(
         name="Block (µm)",
         description="Usual side of a block of logic in µm. Smaller ones make more blocks: four "
@@ -143,6 +142,23 @@ class ChipOptions(PlacingOptions):
     show_groups: BoolProperty(
         name="Groups", description="Show the wires of each group of blocks", default=False
     )
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        from icwafer.chips.presets import PRESETS
+
+        self.fill_from_preset()
+        preset = PRESETS[self.preset]
+        with all_or_nothing():
+            dies = (self.adjusted(preset.dies[0]), *preset.dies[1:])
+            self.add(context, dies, preset.wafer)
+        return {"FINISHED"}
+
+    def add(
+        self, context: bpy.types.Context, dies: tuple[DieSpec, ...], wafer: Wafer | None
+    ) -> None:
+        """Adds what the operator is for. dies, wafer: of the preset, with the panel's numbers."""
+        raise NotImplementedError
 
     def fill_from_preset(self) -> None:
         """Takes the numbers of a new preset; from a script's first call only what it left out."""
@@ -192,8 +208,11 @@ class ChipOptions(PlacingOptions):
             most_blocks=MOST_BLOCKS,
         )
 
-    def draw_chip(self, layout: bpy.types.UILayout) -> None:
-        """The panel's part on the die."""
+    def draw(self, context: bpy.types.Context) -> None:
+        super().draw(context)
+        self.draw_groups(self.layout.column())
+
+    def draw_thing(self, layout: bpy.types.UILayout) -> None:
         layout.prop(self, "preset")
         layout.prop(self, "seed")
         column = layout.column(align=True)
@@ -206,7 +225,9 @@ class ChipOptions(PlacingOptions):
         """The panel's part on the groups, folded or not."""
         layout.use_property_split = False
         icon = "TRIA_DOWN" if self.show_groups else "TRIA_RIGHT"
-        layout.prop(self, "show_groups", icon=icon, emboss=False)
+        row = layout.row()
+        row.alignment = "LEFT"
+        row.prop(self, "show_groups", icon=icon, emboss=False)
         if not self.show_groups:
             return
         for group in self.groups:

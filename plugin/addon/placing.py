@@ -30,7 +30,12 @@ def items_of(name: str) -> list[tuple[str, str, str]]:
 
 
 class PlacingOptions(AddObjectHelper):
-    """Properties of an operator that adds a thing made of the node's material."""
+    """Properties of an operator that adds a thing made of the node's material.
+
+    modes: in which it can be called.
+    """
+
+    modes = frozenset({"OBJECT"})
 
     size: FloatProperty(
         name="Size",
@@ -58,15 +63,21 @@ class PlacingOptions(AddObjectHelper):
         items=items_of("illuminant"),
     )
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.mode in cls.modes
+
     def node_values(self) -> dict[str, Any]:
-        """Properties of the node of new materials."""
+        """Properties of the node of the materials."""
         return {"illuminant": self.illuminant}
 
     def parts(self) -> Parts:
-        """New materials that take the wires from the attributes of the mesh."""
-        from icwafer.scene.parts import parts
+        """Materials that take the wires from the attributes of the mesh; equal ones are shared."""
+        from icwafer.scene.parts import Parts, parts
+        from icwafer.scene.shared import shared
 
-        return parts(self.node_values())
+        made = parts(self.node_values())
+        return Parts(**{part: shared(material) for part, material in vars(made).items()})
 
     def add_mesh(
         self, context: bpy.types.Context, mesh: bpy.types.Mesh, longest_mm: float, wires_rad: float
@@ -120,6 +131,17 @@ class PlacingOptions(AddObjectHelper):
         if self.true_scale:
             return 1e-3 / context.scene.unit_settings.scale_length
         return self.size / longest_mm
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        self.draw_thing(layout)
+        self.draw_place(layout)
+
+    def draw_thing(self, layout: bpy.types.UILayout) -> None:
+        """The panel's part on what is added."""
+        raise NotImplementedError
 
     def draw_place(self, layout: bpy.types.UILayout) -> None:
         """The panel's part on light, size and place."""

@@ -3,8 +3,9 @@
 """Write ic_wafer_bsdf.html, the page that F1 opens on the node, from the table of its inputs.
 
 The inputs come from shaders/icwafer/node_inputs.h, the same table that Blender's sockets and
-tooltips are made of, their pictures from sweeps.py. With --check nothing is written; the exit
-status says whether the page is up to date.
+tooltips are made of, their pictures from sweeps.py, the attributes of meshes from
+icwafer.attributes, as those in the add-on's panel. With --check nothing is written; the exit status
+says whether the page is up to date.
 """
 
 import html
@@ -18,6 +19,10 @@ from pathlib import Path
 from sweeps import SWEEPS, Sweep
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "scripts" / "python"))
+
+from icwafer.attributes import OF_FACES, OF_INSTANCES  # noqa: E402
+
 TABLE = HERE.parents[1] / "shaders" / "icwafer" / "node_inputs.h"
 TEMPLATE = HERE / "ic_wafer_bsdf.template.html"
 PAGE = HERE / "ic_wafer_bsdf.html"
@@ -168,6 +173,11 @@ _OTHERS = {
 }
 
 
+def _row(name: str, *cells: str) -> str:
+    """Of a table of attributes."""
+    return f"<tr><td><code>{name}</code>" + "".join(f"<td>{html.escape(cell)}" for cell in cells)
+
+
 def page_text() -> str:
     """The whole page."""
     others = {
@@ -178,6 +188,8 @@ def page_text() -> str:
         both="\n".join([others["first"], _floats("BOTH"), others["frame"]]),
         physical="\n".join([_floats("PHYSICAL"), others["menus"]]),
         cs348b="\n".join([_floats("CS348B"), others["effects"]]),
+        faces="\n".join(_row(a.name, a.unit, a.meaning, a.socket) for a in OF_FACES),
+        instances="\n".join(_row(a.name, a.meaning, a.socket) for a in OF_INSTANCES),
     )
 
 

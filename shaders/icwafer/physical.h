@@ -168,6 +168,8 @@ constexpr float hidden = 6.5f;
 constexpr float grid_middle_nm = 600.0f;
 /* Steps above this are rounded down to whole nanometres. */
 constexpr float whole_step_nm = 2.0f;
+/* No grid has fewer nodes. */
+constexpr float few_nodes = 20.0f;
 /* More orders than this are not summed one by one. */
 constexpr int window_limit = 24;
 
@@ -670,6 +672,11 @@ struct Integrator {
   }
 };
 
+/* The lobe of one order in wavelength, and the step for it. */
+struct OrderLobe {
+  float centre_nm, sigma_nm, step_nm;
+};
+
 /* Nodes, gathered until all lanes are full. */
 template<typename Tables>
 struct NodeQueue {
@@ -796,16 +803,10 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   const float lamp_per_nm = illuminant_bandwidth_per_nm(p.illuminant);
   const float lamp_part = lamp_per_nm < bright_lamp_per_nm ? 0.7f : 0.8f;
 
-  /* The lobes' widths in wavelength, and in orders. */
   const auto sigma_nm = [&](const float wavelength_nm) {
     return wavelength_nm / larger(q, 1e-6f) *
            sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q));
   };
-  const auto sigma_orders = [&](const float wavelength_nm) {
-    return sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q)) * spacing_nm / wavelength_nm;
-  };
-  const float own_orders = sigma_orders(last_nm);
-  const bool smooth = own_orders > smooth_orders;
   const auto step_nm = [&](const float wavelength_nm, const float lobe_per_nm) {
     /* Lobe and lamp as Gaussians, whose product is narrower than either; of a thick film the
      * second pass counts, too. */
@@ -815,42 +816,47 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   };
   /* The grid is even in 1 / lambda, in which film and orders are; its step where the eye sees
    * most. `path_nm` is what varies beside film and lamp, over 1 / lambda. */
-  const auto grid_step = [&](const float path_nm) {
-    return step_nm(grid_middle_nm, two_pi * path_nm / square(grid_middle_nm)) /
-           square(grid_middle_nm);
+  constexpr float grid_begin = 1.0f / grid_last_nm, grid_span = 1.0f / grid_first_nm - grid_begin;
+  const auto grid_nodes = [&](const float path_nm) {
+    return grid_span * square(grid_middle_nm) /
+           step_nm(grid_middle_nm, two_pi * path_nm / square(grid_middle_nm));
   };
-  const float lobe_path_nm = gaussian_bandwidth / two_pi * square(grid_last_nm) /
-                             sigma_nm(grid_last_nm);
+  const auto lobe_path_nm = [&]() {
+    return gaussian_bandwidth / two_pi * square(grid_last_nm) / sigma_nm(grid_last_nm);
+  };
+  const auto sigma_orders = [&](const float wavelength_nm) {
+    return sqrtf(lobe_variance(p, nodes.first, wavelength_nm, q)) * spacing_nm / wavelength_nm;
+  };
 
   /* One order after the other. */
   if (!mirror && order_most - float(order_first) < float(window_limit)) {
-    const auto step_in = [&](const float centre_nm, const float sigma) {
-      return step_nm(clamped(centre_nm, blue_nm, last_nm), gaussian_bandwidth / sigma);
-    };
-    float node_count = 0.0f;
     const int order_last = int(order_most);
-    for (int m = order_first; m <= order_last; m++) {
+    const auto lobe_of = [&](const int m) {
       const float centre_nm = q * spacing_nm / float(m);
       const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
-      node_count += 2.0f * lobe_reach * sigma / step_in(centre_nm, sigma) + 1.0f;
+      return OrderLobe{centre_nm,
+                       sigma,
+                       step_nm(clamped(centre_nm, blue_nm, last_nm), gaussian_bandwidth / sigma)};
+    };
+    const OrderLobe last = lobe_of(order_last);
+    float node_count = 0.0f;
+    for (int m = order_first; m <= order_last; m++) {
+      const OrderLobe lobe = m < order_last ? lobe_of(m) : last;
+      node_count += 2.0f * lobe_reach * lobe.sigma_nm / lobe.step_nm + 1.0f;
     }
-    if (node_count <
-        (1.0f / grid_first_nm - 1.0f / grid_last_nm) / grid_step(smooth ? 0.0f : lobe_path_nm)) {
+    if (node_count < few_nodes ||
+        node_count < grid_nodes(sigma_orders(last_nm) > smooth_orders ? 0.0f : lobe_path_nm())) {
       nodes.orders = Orders::Single;
+      nodes.whole = last.step_nm > whole_step_nm;
       NodeQueue<Tables> queue(nodes);
-      const float last_centre_nm = q * spacing_nm / float(order_last);
-      nodes.whole = step_in(last_centre_nm, sigma_nm(clamped(last_centre_nm, first_nm, last_nm))) >
-                    whole_step_nm;
       for (int m = order_first; m <= order_last; m++) {
-        const float centre_nm = q * spacing_nm / float(m);
-        const float sigma = sigma_nm(clamped(centre_nm, first_nm, last_nm));
-        const float exact_step = step_in(centre_nm, sigma);
-        const float step = nodes.whole ? floorf(exact_step) : exact_step;
-        const bool bright = lamp_per_nm < bright_lamp_per_nm && sigma < bright_sigma_nm &&
-                            centre_nm > bright_first_nm && centre_nm < bright_last_nm;
-        const float reach_nm = (bright ? bright_reach : lobe_reach) * sigma;
+        const OrderLobe lobe = m < order_last ? lobe_of(m) : last;
+        const float step = nodes.whole ? floorf(lobe.step_nm) : lobe.step_nm;
+        const bool bright = lamp_per_nm < bright_lamp_per_nm && lobe.sigma_nm < bright_sigma_nm &&
+                            lobe.centre_nm > bright_first_nm && lobe.centre_nm < bright_last_nm;
+        const float reach_nm = (bright ? bright_reach : lobe_reach) * lobe.sigma_nm;
         const float count = ceilf(2.0f * reach_nm / step);
-        float node = centre_nm - 0.5f * step * (count - 1.0f);
+        float node = lobe.centre_nm - 0.5f * step * (count - 1.0f);
         if (nodes.whole) {
           node = floorf(node + 0.5f);
         }
@@ -870,6 +876,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   /* All orders at each node of a grid over the visible range. */
   float path_nm = 0.0f;
   const float path_1_nm = q * spacing_nm;
+  const float own_orders = sigma_orders(last_nm);
   /* A ripple of so many turns for each order is hidden by the lobes' width, and as the eye blurs
    * it. */
   const auto seen = [&](const float turns) {
@@ -891,8 +898,8 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
     nodes.dense_ripples = ripples;
     path_nm = ripple_path_nm;
   }
-  else if (!smooth) {
-    path_nm = lobe_path_nm;
+  else if (own_orders < smooth_orders) {
+    path_nm = lobe_path_nm();
     if (2.0f * apart_reach * sigma_orders(first_nm) < 1.0f) {
       nodes.orders = Orders::Single;
     }
@@ -907,13 +914,11 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
       return nodes.sum();
     }
   }
-  const float exact_step = grid_step(path_nm);
-  const float begin = 1.0f / grid_last_nm, span = 1.0f / grid_first_nm - begin;
-  const int block_count = int(ceilf(span / (exact_step * float(lane_count))));
-  const float step = span / float(block_count * lane_count);
+  const int block_count = int(ceilf(grid_nodes(path_nm) / float(lane_count)));
+  const float step = grid_span / float(block_count * lane_count);
   for (int block = 0; block < block_count; block++) {
     const Lanes k = float(block * lane_count) + 0.5f + lane_numbers();
-    const Lanes per_nm = begin + step * k;
+    const Lanes per_nm = grid_begin + step * k;
     const Lanes node = 1.0f / per_nm;
     nodes.add_lanes(
         node, step * node * node, lanes_max(lanes_round(path_1_nm * per_nm), lanes(1.0f)));

@@ -38,11 +38,12 @@ def glossy(coherence_um: float, length_um: float, roughness: float) -> bpy.types
     """A microfacet lobe as wide: slopes deflect by twice their angle, so sigma = sqrt(2) alpha.
 
     Along the tangent, the X axis as for the node's wires, alpha is r^2 (1 - a), across r^2/(1 - a).
+    The plane's UV map gives that axis; by itself the node takes circles around the plane's middle.
     """
     along, across = (
         mirror_width(width, roughness) / math.sqrt(2) for width in (length_um, coherence_um)
     )
-    return frame_scene.material(
+    made = frame_scene.material(
         "ShaderNodeBsdfAnisotropic",
         {
             "distribution": "GGX",
@@ -51,6 +52,11 @@ def glossy(coherence_um: float, length_um: float, roughness: float) -> bpy.types
             else math.sqrt(across / along) - 1.0,
         },
     )  # fmt: skip
+    nodes = made.node_tree.nodes
+    axis = nodes.new("ShaderNodeTangent")
+    axis.direction_type = "UV_MAP"
+    made.node_tree.links.new(axis.outputs[0], nodes["Anisotropic BSDF"].inputs["Tangent"])
+    return made
 
 
 def noise(scene: bpy.types.Scene, folder: Path) -> tuple[float, float]:
@@ -61,9 +67,10 @@ def noise(scene: bpy.types.Scene, folder: Path) -> tuple[float, float]:
     for seed in range(SEEDS):
         scene.cycles.seed = seed
         bpy.ops.render.render()
-        path = folder / "frame.exr"
-        bpy.data.images["Render Result"].save_render(str(path), scene=scene)
-        frames.append(oiio.ImageBuf(str(path)).get_pixels(oiio.FLOAT)[..., :3])
+        path = str(folder / "frame.exr")
+        bpy.data.images["Render Result"].save_render(path, scene=scene)
+        # Not ImageBuf, which remembers a file of the same name within the same second.
+        frames.append(oiio.ImageInput.open(path).read_image(oiio.FLOAT)[..., :3])
     channels = np.stack(frames)
     mean = channels.mean(axis=(0, -1))
     lit = mean > 0.5 * mean.mean()

@@ -74,7 +74,7 @@ with tempfile.TemporaryDirectory() as folder:
     write_large_layout(file)
     begin = time.perf_counter()
     layout = read_layout(file)
-wafer = add_wafer(layout, scene.collection, parts())
+wafer = add_wafer(layout, scene.collection, parts(), plates=False)
 built_s = time.perf_counter() - begin
 scene.camera = camera_object(Camera((0, -560, 400), (0, 0, 0), 90))
 scene.collection.objects.link(scene.camera)

@@ -87,6 +87,8 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
     in_edit_mode = "bpy.ops.mesh.primitive_plane_add(); bpy.ops.object.mode_set(mode='EDIT')"
     in_mm = "bpy.context.scene.unit_settings.scale_length = 0.001"
     at_cursor = "bpy.context.scene.cursor.location = (1, 2, 3)"
+    wafer = "bpy.data.materials['Chip'].node_tree.nodes['IC Wafer BSDF']"
+    change = f"{wafer}.inputs['Coherence Width'].default_value = 3"
     group = {"name": "logic", "spacing_nm": 1500.0, "deviation_nm": 5.0, "oxide_nm": 700.0}
     group |= {"diffraction": 0.9, "turned": 0.0}
     return {
@@ -99,9 +101,16 @@ def steps_in(folder: Path) -> dict[str, dict[str, Any]]:
         "edit mode": step(DIE, preset="dram") | {"before": in_edit_mode},
         "not turned": rendered("not turned", step(DIE, preset="dram", catch_light=False)),
         "new material": step("object.ic_material_add") | {"before": "bpy.ops.mesh.ic_die_add()"},
+        "equal die": step(DIE, preset="dram") | {"before": "bpy.ops.mesh.ic_die_add()"},
+        "other metal": step(DIE, metal="ALUMINIUM") | {"before": "bpy.ops.mesh.ic_die_add()"},
+        "changed by hand": step(DIE)
+        | {"before": f"bpy.ops.mesh.ic_die_add(); {change}"},
         "too small": step(DIE, preset="eight-core", width_mm=0.1, height_mm=0.1),
         "wafer": rendered("wafer", step(WAFER, preset="eight-core"))
         | {"blend": str(folder / "wafer.blend")},
+        "wafer of blocks": rendered(
+            "wafer of blocks", step(WAFER, preset="eight-core", viewport="BLOCKS")
+        ),
         "wafer 100": step(WAFER, preset="power", diameter_mm="100", partial_dies=True, drift=0.0),
         "too large": step(WAFER, preset="power", width_mm=40.0, height_mm=40.0),
         "gds": chip("chip.gds"),
@@ -258,6 +267,12 @@ class AddOn(unittest.TestCase):
     def test_a_new_material_from_the_attributes(self) -> None:
         self.assertEqual(self.made("new material")["materials"], ["Chip.001", "Chip Ground"])
 
+    def test_equal_materials_are_shared(self) -> None:
+        self.assertEqual(self.made("equal die")["materials"], ["Chip", "Chip Ground"])
+        for name in ("other metal", "changed by hand"):
+            with self.subTest(name):
+                self.assertEqual(self.made(name)["materials"], ["Chip.001", "Chip Ground"])
+
     def test_too_small(self) -> None:
         self.assert_refused("too small", "too small for its floorplan", "width_mm")
 
@@ -272,6 +287,12 @@ class AddOn(unittest.TestCase):
         self.assertAlmostEqual(max(done["dimensions"]), 2.0, delta=0.01)
         image = pixels.read(self.folder / "wafer.exr")
         self.assertGreater(int((np.ptp(image, axis=2) > 0.02).sum()), 40)
+
+    def test_what_viewports_show_changes_no_render(self) -> None:
+        self.assertEqual(self.made("wafer")["drawn faces"], 1 + self.done["wafer"]["instances"])
+        self.assertGreater(self.made("wafer of blocks")["drawn faces"], 1_000_000)
+        images = [self.folder / f"{name}.exr" for name in ("wafer", "wafer of blocks")]
+        np.testing.assert_array_equal(*map(pixels.read, images))
 
     def test_another_wafer(self) -> None:
         layout = PRESETS["power"]

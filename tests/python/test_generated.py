@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is generated and committed is what its generator writes today."""
 
+import html
+import re
 import subprocess
 import sys
 import unittest
@@ -47,6 +49,24 @@ class Generated(unittest.TestCase):
             self.assertLessEqual(i.minimum, i.initial, i.name)
             self.assertLessEqual(i.initial, i.maximum, i.name)
             self.assertGreater(len(i.tooltip), 40, i.name)
+
+    def test_manual_has_every_attribute_of_meshes(self) -> None:
+        """Each with its meaning and unit, and with an input of the node that it drives."""
+        sys.path[:0] = [str(ROOT / "plugin" / "manual"), str(ROOT / "scripts" / "python")]
+        import make_manual
+
+        from icwafer.attributes import OF_FACES, OF_INSTANCES
+
+        page = make_manual.page_text()
+        rows = dict(re.findall(r"<tr><td><code>(ic_\w+)</code><td>(.*)", page))
+        self.assertEqual(set(rows), {attribute.name for attribute in (*OF_FACES, *OF_INSTANCES)})
+        inputs = {i.name for i in make_manual.float_inputs()}
+        for attribute in OF_FACES:
+            cells = html.unescape(rows[attribute.name]).split("<td>")
+            self.assertEqual(cells, [attribute.unit, attribute.meaning, attribute.socket])
+            self.assertIn(attribute.socket, inputs)
+        for attribute in OF_INSTANCES:
+            self.assertIn(attribute.meaning, html.unescape(rows[attribute.name]))
 
     def test_manual_shows_every_input(self) -> None:
         """Three values or more of each, in pictures of just these values, and no others."""

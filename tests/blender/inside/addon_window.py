@@ -2,18 +2,22 @@
 """The add-on as a user meets it: menus, search, redo panel, undo, properties editor, file browser.
 
 Parameters: `folder` for the pictures of the window; `chip`, folder and name of a layout file to be
-imported; `pause_s`, the time for each step.
+imported; `bad_chip`, one that cannot be read; `pause_s`, the time for each step.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
+from bl_ui.space_statusbar import STATUSBAR_HT_header
 from exchange import parameters, report
 from window import area_of, context_of, in_window
 
-Step = Callable[[], None]
+Step = Callable[[], bool | None]
 
 facts: dict[str, object] = {}
 
@@ -115,6 +119,28 @@ def add_wafer() -> None:
         )  # True: with a step of undo, as from a menu
 
 
+def add_die() -> None:
+    with bpy.context.temp_override(**in_view()):
+        bpy.ops.mesh.ic_die_add("INVOKE_DEFAULT", True, preset="bar-memory")
+
+
+def tell_metals(name: str) -> Step:
+    """Remembers the material of each die, and the metal in it."""
+
+    def tell() -> None:
+        materials = {
+            thing.name: thing.data.materials[0]
+            for thing in bpy.context.scene.objects
+            if thing.name.startswith("IC Die")
+        }
+        facts[name] = {
+            die: [material.name, material.node_tree.nodes["IC Wafer BSDF"].metal]
+            for die, material in materials.items()
+        }
+
+    return tell
+
+
 def choose_file() -> None:
     """In the file browser, which is another window."""
     window = bpy.context.window_manager.windows[-1]
@@ -127,8 +153,77 @@ def choose_file() -> None:
         bpy.ops.file.execute()
 
 
+def move_cursor(place: tuple[float, float, float]) -> None:
+    bpy.context.scene.cursor.location = place
+
+
 def wait() -> None:
     """While regions of a new window slide in."""
+
+
+def begin_import(path: str, **options: object) -> None:
+    """As after the file browser."""
+    with bpy.context.temp_override(**in_view()):
+        bpy.ops.import_scene.ic_chip("INVOKE_DEFAULT", True, filepath=path, **options)
+
+
+def begin_slow_import() -> None:
+    """In tiles so small that it takes many seconds."""
+    begin_import("/".join(parameters()["chip"]), tile_um=2.0)
+
+
+def status() -> str:
+    """What the operator shows in the status bar; nothing if that is Blender's own again."""
+    texts: list[str] = []
+    row = SimpleNamespace(label=lambda text, icon: texts.append(text))
+    header = SimpleNamespace(layout=SimpleNamespace(row=lambda align: row))
+    draw = STATUSBAR_HT_header.draw
+    if draw is not STATUSBAR_HT_header._draw_orig:
+        draw(header, None)
+    return " ".join(texts)
+
+
+def is_reading() -> bool:
+    return status().startswith("Reading") and " 0%" not in status()
+
+
+def readers() -> int:
+    """How many processes of this Blender read chips."""
+    found = 0
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+            command = (folder / "cmdline").read_bytes()
+            found += parent == os.getpid() and b"portrait.apart" in command
+        except FileNotFoundError:
+            pass  # it has just ended
+    return found
+
+
+def tell_import(name: str) -> Step:
+    """Remembers how an import is going, and what of the user's keys reaches the view."""
+    return lambda: facts.update(
+        {
+            name: {
+                "status": status(),
+                "readers": readers(),
+                "things": things(),
+                "selected": len(bpy.context.selected_objects),
+                "data": [len(bpy.data.meshes), len(bpy.data.materials), len(bpy.data.objects)],
+            }
+        }
+    )
+
+
+def edit_mode(on: bool) -> None:
+    with bpy.context.temp_override(**in_view()):
+        bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
+        bpy.ops.object.mode_set(mode="EDIT" if on else "OBJECT")
+
+
+def until(condition: Callable[[], bool]) -> Step:
+    """A step that is called again until something is so."""
+    return lambda: not condition()
 
 
 def tell(name: str) -> Step:
@@ -168,14 +263,45 @@ in_window(
     tell("wafer"),
     lambda: shoot("wafer"),
     undo,
+    lambda: move_cursor((1.0, 2.0, 3.0)),
     lambda: search("chip layout"),
     lambda: press("RET"),
     wait,
     wait,
     lambda: shoot("import"),
     choose_file,
+    until(lambda: "chip" in bpy.data.objects),
     tell("imported"),
+    lambda: facts.update({"place": list(bpy.data.objects["chip"].location)}),
     lambda: shoot("imported"),
+    undo,
+    tell("import undone"),
+    begin_slow_import,
+    until(is_reading),
+    lambda: press("A"),
+    wait,
+    tell_import("reading"),
+    lambda: shoot("reading"),
+    lambda: press("ESC"),
+    wait,
+    tell_import("cancelled"),
+    lambda: begin_import(parameters()["bad_chip"]),
+    until(lambda: status() == ""),
+    tell_import("bad chip"),
+    lambda: shoot("bad_chip"),
+    lambda: press("ESC"),
+    lambda: begin_import("/".join(parameters()["chip"])),
+    lambda: edit_mode(True),
+    until(lambda: "waits" in status()),
+    tell_import("in edit mode"),
+    lambda: edit_mode(False),
+    until(lambda: status() == ""),
+    tell_import("after edit mode"),
+    add_die,
+    add_die,
+    tell_metals("two dies"),
+    lambda: redo(metal="ALUMINIUM"),
+    tell_metals("other metal"),
     lambda: report(facts),
     pause_s=parameters()["pause_s"],
 )

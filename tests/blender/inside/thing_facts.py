@@ -14,11 +14,25 @@ def values_of(attribute: bpy.types.Attribute) -> list[float]:
 
 
 def instances_of(thing: bpy.types.Object) -> int:
-    """How many instances an object has after its modifiers."""
+    """How many instances an object has after its modifiers, of what renders show."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     return sum(
-        instance.is_instance and instance.parent.original == thing
+        instance.is_instance
+        and instance.parent.original == thing
+        and not instance.object.hide_render
         for instance in depsgraph.object_instances
+    )
+
+
+def drawn_faces_of(thing: bpy.types.Object) -> int:
+    """How many faces of its instances a viewport draws that does not render with Cycles."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    return sum(
+        len(instance.object.data.polygons)
+        for instance in depsgraph.object_instances
+        if instance.is_instance
+        and instance.parent.original == thing
+        and instance.object.display_type != "BOUNDS"
     )
 
 
@@ -37,6 +51,7 @@ def thing_facts(thing: bpy.types.Object) -> dict[str, object]:
         "faces": len(thing.data.polygons),
         "materials": [slot.material.name for slot in thing.material_slots],
         "instances": instances_of(thing),
+        "drawn faces": drawn_faces_of(thing),
         "attributes": {
             attribute.name: values_of(attribute)
             for attribute in thing.data.attributes

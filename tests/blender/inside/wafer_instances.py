@@ -40,7 +40,7 @@ def build(layout: str, exr: str) -> dict[str, Any]:
         "instances": [], "parents": [],
     }  # fmt: skip
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
-        if instance.is_instance:
+        if instance.is_instance and not instance.object.hide_render:
             facts["instances"].append(list(instance.matrix_world.translation))
             facts["parents"].append(instance.parent.name)
     scene.collection.objects.link(lamp(Light("AREA", (0, 150, 250), 5e5, size_mm=(150, 100))))

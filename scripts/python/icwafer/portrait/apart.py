@@ -11,13 +11,15 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+import select
 import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 from icwafer.chips.document import layout_text, parse_layout
 from icwafer.errors import IcwaferError
@@ -39,10 +41,11 @@ class Wish:
     window_um: float | None = None
 
 
-def subject_apart(wish: Wish, progress: Callable[[float], None] = lambda _: None) -> Subject:
-    """What `subject_of` returns, and its errors.
+def subject_apart(wish: Wish, patience_s: float) -> Generator[float | None, None, Subject]:
+    """What `subject_of` returns, and its errors, in steps between which the caller may do more.
 
-    progress is told now and then how much is done, 0 to 1.
+    Yields how much is done, 0 to 1, or None where in `patience_s` seconds nothing was heard.
+    Closing the generator ends the process.
     """
     with tempfile.TemporaryDirectory(prefix="icwafer-") as folder:
         wires = Path(folder) / "wires.npz"
@@ -53,15 +56,14 @@ def subject_apart(wish: Wish, progress: Callable[[float], None] = lambda _: None
             stderr=subprocess.DEVNULL,
             env=os.environ | {"PYTHONPATH": str(Path(__file__).resolve().parents[2])},
             start_new_session=True,
-            text=True,
         )
         try:
             with process.stdin as stdin:
-                json.dump(dataclasses.asdict(wish), stdin)
-            for line in process.stdout:
-                answer = json.loads(line)
+                stdin.write(json.dumps(dataclasses.asdict(wish)).encode())
+            for line in _lines(process.stdout, patience_s):
+                answer = json.loads(line) if line else {"done": None}
                 if "done" in answer:
-                    progress(answer["done"])
+                    yield answer["done"]
                 elif "error" in answer:
                     raise IcwaferError(answer["error"])
                 else:
@@ -77,6 +79,20 @@ def subject_apart(wish: Wish, progress: Callable[[float], None] = lambda _: None
                 os.killpg(process.pid, signal.SIGKILL)
             process.wait()
             process.stdout.close()
+
+
+def _lines(pipe: BinaryIO, patience_s: float) -> Iterator[bytes | None]:
+    """The lines that come through a pipe; None where none came in `patience_s` seconds."""
+    begun = b""
+    while True:
+        if not select.select([pipe], [], [], patience_s)[0]:
+            yield None
+            continue
+        heard = os.read(pipe.fileno(), 1 << 20)
+        if not heard:
+            return
+        *lines, begun = (begun + heard).split(b"\n")
+        yield from lines
 
 
 def main(arguments: list[str]) -> int:

@@ -52,7 +52,7 @@ def subject_of(
     """
     if path.name.endswith(ENDING):
         layout = read_layout(path)
-        return Subject(_with_wafer(layout) if wafer else layout)
+        return Subject(with_wafer(layout) if wafer else layout)
     if not path.name.lower().endswith(CHIPS):
         raise IcwaferError(
             f"{path}: neither a layout ({ENDING}) nor a chip ({', '.join(CHIPS)}); "
@@ -63,7 +63,7 @@ def subject_of(
     imported = import_layout(request, progress)
     node = {"metal": _metal(process)}
     if wafer:
-        return Subject(_with_wafer(imported.layout), node=node)
+        return Subject(with_wafer(imported.layout), node=node)
     return Subject(imported.layout, read_wires(request, imported), node)
 
 
@@ -71,7 +71,7 @@ def _metal(process: Process) -> str:
     return process.layers[0].metal.upper()
 
 
-def _with_wafer(layout: Layout) -> Layout:
+def with_wafer(layout: Layout) -> Layout:
     """The layout, with a usual wafer if it has none; then small chips are shown enlarged."""
     if layout.wafer is not None:
         return layout

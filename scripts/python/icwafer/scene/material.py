@@ -28,6 +28,8 @@ DRIFTING = {
 #: Metal without a regular pattern: what its wires and gaps reflect on average, over many angles.
 IRREGULAR_COLOUR = (0.10, 0.10, 0.11)
 IRREGULAR_ROUGHNESS = 0.4
+#: Of chips in viewports without light and shade: their tint on average.
+VIEWPORT_COLOUR = (0.30, 0.24, 0.38)
 
 
 def expect_node() -> None:
@@ -73,6 +75,7 @@ def chip_material(
     values: of the node's inputs and properties; an input that is named here takes no attribute.
     """
     material = bpy.data.materials.new(name)
+    material.diffuse_color = (*VIEWPORT_COLOUR, 1.0)
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()

@@ -47,4 +47,5 @@ def metal_material(name: str, colour: tuple[float, ...], roughness: float) -> bp
     principled.inputs["Base Color"].default_value = (*colour, 1.0)
     principled.inputs["Metallic"].default_value = 1.0
     principled.inputs["Roughness"].default_value = roughness
+    material.diffuse_color = (*colour, 1.0)
     return material

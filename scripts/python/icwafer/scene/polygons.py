@@ -33,6 +33,20 @@ def polygon_mesh(
     return mesh
 
 
+def loose_faces(polygons: Sequence[np.ndarray], first: int = 0) -> list[np.ndarray]:
+    """Polygons (k, ...) without common points, as `polygon_mesh` takes them.
+
+    first: index of the first point; the others follow.
+    """
+    starts = first + np.cumsum([0, *map(len, polygons)])
+    return [np.arange(at, at + len(part))[None] for at, part in zip(starts, polygons)]
+
+
+def at_height(polygons: Sequence[np.ndarray], z_mm: float) -> np.ndarray:
+    """The points (n, 3) of polygons (k, 2) in a plane."""
+    return np.insert(np.concatenate([np.empty((0, 2)), *polygons]), 2, z_mm, axis=1)
+
+
 def add_attribute(
     mesh: bpy.types.Mesh, name: str, domain: str, values: np.ndarray, kind: str = "FLOAT"
 ) -> None:

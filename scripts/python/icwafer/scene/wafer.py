@@ -3,15 +3,15 @@
 
 The object's mesh is the disc of silicon and a loose point where each die stands; a geometry-nodes
 modifier puts the dies on the points. The points carry `ic_die` (1 for the first kind of die, 0 for
-the disc's own points) and the drift of the place, `ic_oxide_drift` and so on, which the material
-reads from the instance (Attribute node, type Instancer). Of what can carry such attributes, an
-object for each die takes several times as long to the first sample, and is hundreds of things to
-move (tests/benchmarks/wafer_scale.py).
+the disc's own points, a negative number for what only viewports show) and the drift of the place,
+`ic_oxide_drift` and so on, which the material reads from the instance (Attribute node, type
+Instancer). Of what can carry such attributes, an object for each die takes several times as long to
+the first sample, and is hundreds of things to move (tests/benchmarks/wafer_scale.py).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Generator, Sequence
 
 import bpy
 import numpy as np
@@ -26,12 +26,11 @@ from icwafer.errors import IcwaferError
 from icwafer.scene.material import DRIFTS
 from icwafer.scene.mesh import GAP_NM, STEP_MM, block_faces_mm, die_mesh
 from icwafer.scene.parts import Parts
-from icwafer.scene.polygons import add_attribute, polygon_mesh
+from icwafer.scene.polygons import add_attribute, at_height, loose_faces, polygon_mesh
+from icwafer.scene.stand_in import stand_in
 
 #: The node group that puts dies on points, one for all wafers of a file.
-GROUP = "IC Wafer Dies"
-#: Told now and then how far the work is, 0 to 1.
-Progress = Callable[[float], None]
+GROUP = "IC Wafer Instances"
 
 
 def add_wafer(
@@ -40,53 +39,71 @@ def add_wafer(
     parts: Parts,
     name: str = "Wafer",
     gap_nm: float = GAP_NM,
-    progress: Progress = lambda _: None,
+    plates: bool = True,
 ) -> bpy.types.Object:
-    """Links a wafer full of dies, as one object, to a collection.
+    """Links a wafer full of dies, as one object, to a collection; see `wafer_in_steps`."""
+    steps = wafer_in_steps(layout, collection, parts, name, gap_nm, plates)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def wafer_in_steps(
+    layout: Layout,
+    collection: bpy.types.Collection,
+    parts: Parts,
+    name: str = "Wafer",
+    gap_nm: float = GAP_NM,
+    plates: bool = True,
+) -> Generator[float, None, bpy.types.Object]:
+    """Links a wafer full of dies, as one object, to a collection. Yields how much is done, 0 to 1.
 
     The front lies in the plane z = 0 in mm, the wafer's centre is the origin, notch or flat at -y.
-    Raises IcwaferError where the layout has no wafer.
+    plates: whether viewports show plates in place of the dies, see `icwafer.scene.stand_in`. Raises
+    IcwaferError where the layout has no wafer.
     """
     if layout.wafer is None:
         raise IcwaferError("the layout has no wafer: give it a table [wafer]")
     places = place_dies(layout)
-    kinds, kind_of = _die_kinds(layout, places, parts, gap_nm, progress)
-    mesh = _disc_mesh(name, layout, places, kind_of)
+    meshes: list[bpy.types.Mesh] = []
+    kind_of = yield from _die_meshes(meshes, layout, places, gap_nm)
+    plates &= len(meshes) > 0
+    mesh = _disc_mesh(name, layout, places, kind_of, plates)
     for material in (parts.silicon, parts.lane):
         mesh.materials.append(material)
     wafer = bpy.data.objects.new(name, mesh)
-    collection.objects.link(wafer)
     dies = bpy.data.collections.new(f"{name} dies")
-    for die in kinds:
+    # Geometry nodes pick by place in alphabetical order.
+    for number, shape in enumerate(meshes):
+        for material in (parts.blocks, parts.ground):
+            shape.materials.append(material)
+        die = bpy.data.objects.new(f"Die {number:05}", shape)
+        die.display_type = "BOUNDS" if plates else "TEXTURED"
         dies.objects.link(die)
+    if plates:
+        title = f"Die {len(meshes):05} stand-in"
+        # Wider lanes than real ones, which could not be seen.
+        lane_mm = -0.05 * min(layout.dies[0].width_mm, layout.dies[0].height_mm)
+        rects = _grounds_mm(layout, places, lane_mm)
+        dies.objects.link(stand_in(title, layout.wafer, rects, meshes[0], parts))
     modifier = wafer.modifiers.new("Dies", "NODES")
     modifier.node_group = _instancing_group()
     modifier[modifier.node_group.inputs["Dies"].identifier] = dies
-    progress(1.0)
+    collection.objects.link(wafer)
     return wafer
 
 
-def _die_kinds(
-    layout: Layout,
-    places: WaferMap,
-    parts: Parts,
-    gap_nm: float,
-    progress: Progress,
-) -> tuple[list[bpy.types.Object], np.ndarray]:
-    """An object for each different die, and for each place the index of its object.
+def _die_meshes(
+    meshes: list[bpy.types.Mesh], layout: Layout, places: WaferMap, gap_nm: float
+) -> Generator[float, None, np.ndarray]:
+    """Appends a mesh for each different die. Returns for each place the index of its mesh.
 
     Every design is one; every partial die is another, for each one is cut elsewhere. Nothing is
     made for partial dies of which nothing is left; their index is -1.
     """
-    kinds: list[bpy.types.Object] = []
     kind_of = np.full(len(places), -1)
-
-    def add(mesh: bpy.types.Mesh) -> None:
-        for material in (parts.blocks, parts.ground):
-            mesh.materials.append(material)
-        # Geometry nodes pick by place in alphabetical order.
-        kinds.append(bpy.data.objects.new(f"Die {len(kinds):05}", mesh))
-
     partial = np.flatnonzero(places.partial)
     steps = len(layout.dies) + len(partial)
     for design, spec in enumerate(layout.dies):
@@ -96,17 +113,17 @@ def _die_kinds(
             continue
         die = generate(spec)
         if complete.any():
-            kind_of[complete] = len(kinds)
-            add(die_mesh(die, gap_nm, ground=True))
-        progress((design + 1) / (steps + 1))
+            kind_of[complete] = len(meshes)
+            meshes.append(die_mesh(die, gap_nm, ground=True))
+        yield (design + 1) / (steps + 1)
         faces = block_faces_mm(die, gap_nm) if here else None
         for done, index in enumerate(here):
             mesh = _partial_mesh(die, faces, gap_nm, places.centre_mm[index], layout.wafer)
             if mesh:
-                kind_of[index] = len(kinds)
-                add(mesh)
-            progress((design + 1 + done) / (steps + 1))
-    return kinds, kind_of
+                kind_of[index] = len(meshes)
+                meshes.append(mesh)
+            yield (design + 1 + done) / (steps + 1)
+    return kind_of
 
 
 def _partial_mesh(
@@ -128,8 +145,10 @@ def _partial_mesh(
     )
 
 
-def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray) -> bpy.types.Mesh:
-    """The disc, the ground of the scribe lanes on it, and a loose point for each die."""
+def _disc_mesh(
+    name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray, with_stand_in: bool
+) -> bpy.types.Mesh:
+    """The disc, the ground of the scribe lanes on it, and a loose point for each instance."""
     wafer = layout.wafer
     rings = [
         np.insert(outline_mm(wafer, inset), 2, height - 2 * STEP_MM, axis=1)
@@ -143,21 +162,16 @@ def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray)
         for ring in range(len(rings) - 1)
     ]
     back = index[::-1] + (len(rings) - 1) * around
-    lanes = _lanes_mm(layout, places)
+    lanes = _grounds_mm(layout, places, layout.wafer.scribe_um / 1000)
     stands = np.flatnonzero(kind_of >= 0)
-    lane_points = np.insert(np.concatenate([*lanes, np.empty((0, 2))]), 2, -1.5 * STEP_MM, axis=1)
-    die_points = np.insert(places.centre_mm[stands], 2, 0.0, axis=1)
+    lane_points = at_height(lanes, -1.5 * STEP_MM)
+    stand_in_point = np.zeros((int(with_stand_in), 2))
+    instances = at_height([places.centre_mm[stands], stand_in_point], 0.0)
     disc = around * len(rings)
-    first = disc + np.cumsum([0, *map(len, lanes)])
     mesh = polygon_mesh(
         name,
-        np.concatenate([*rings, lane_points, die_points]),
-        [
-            index[None],
-            back[None],
-            *sides,
-            *(np.arange(at, at + len(lane))[None] for at, lane in zip(first, lanes)),
-        ],
+        np.concatenate([*rings, lane_points, instances]),
+        [index[None], back[None], *sides, *loose_faces(lanes, disc)],
     )
     edge = np.zeros(len(mesh.polygons), dtype=bool)
     edge[2 : 2 + around * len(sides)] = True  # the faces are flat, the edge is round
@@ -166,20 +180,22 @@ def _disc_mesh(name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray)
         "material_index", (np.arange(len(edge)) >= 2 + around * len(sides)).astype(np.int32)
     )
 
-    def on_points(values: np.ndarray) -> np.ndarray:
-        return np.r_[np.zeros(disc + len(lane_points)), values[stands]]
+    def on_points(of_dies: np.ndarray, of_stand_in: float = 0.0) -> np.ndarray:
+        of_others = np.zeros(disc + len(lane_points))
+        return np.r_[of_others, of_dies[stands], np.full(len(stand_in_point), of_stand_in)]
 
-    add_attribute(mesh, "ic_die", "POINT", on_points(kind_of + 1).astype(np.int32), "INT")
+    number = on_points(kind_of + 1, -(kind_of.max(initial=-1) + 2))
+    add_attribute(mesh, "ic_die", "POINT", number.astype(np.int32), "INT")
     for quantity, attribute in DRIFTS.items():
         drift = getattr(places, f"{quantity}_scale").astype(np.float64) - 1.0
         add_attribute(mesh, attribute, "POINT", on_points(drift))
     return mesh
 
 
-def _lanes_mm(layout: Layout, places: WaferMap) -> list[np.ndarray]:
-    """The ground around each die with half of the lanes beside it, cut by the rim: (k, 2) each."""
+def _grounds_mm(layout: Layout, places: WaferMap, lane_mm: float) -> list[np.ndarray]:
+    """The ground of each die with half of a lane around it, cut by the rim: (k, 2) each."""
     sizes = np.array([(die.width_mm, die.height_mm) for die in layout.dies])[places.die]
-    half = (sizes + layout.wafer.scribe_um / 1000) / 2
+    half = (sizes + lane_mm) / 2
     rects = np.concatenate([places.centre_mm - half, places.centre_mm + half], axis=1)
     pieces = cut_to_usable(rects, layout.wafer)
     whole: Sequence[np.ndarray] = rects[pieces.whole][:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
@@ -187,7 +203,10 @@ def _lanes_mm(layout: Layout, places: WaferMap) -> list[np.ndarray]:
 
 
 def _instancing_group() -> bpy.types.NodeTree:
-    """Puts the objects of a collection on points: the one that `ic_die` names, counted from 1."""
+    """Puts the objects of a collection on points: the one that `ic_die` names, counted from 1.
+
+    Where the number is negative, viewports show the object, and renders do not.
+    """
     group = bpy.data.node_groups.get(GROUP)
     if group is not None:
         return group
@@ -200,32 +219,50 @@ def _instancing_group() -> bpy.types.NodeTree:
     number = group.nodes.new("GeometryNodeInputNamedAttribute")
     number.data_type = "INT"
     number.inputs["Name"].default_value = "ic_die"
-    pick = group.nodes.new("ShaderNodeMath")
-    pick.operation = "SUBTRACT"
-    pick.inputs[1].default_value = 1.0
+    viewport = group.nodes.new("GeometryNodeIsViewport")
     dies = group.nodes.new("GeometryNodeCollectionInfo")
     dies.inputs["Separate Children"].default_value = True
     dies.inputs["Reset Children"].default_value = True
     instances = group.nodes.new("GeometryNodeInstanceOnPoints")
     instances.inputs["Pick Instance"].default_value = True
     join = group.nodes.new("GeometryNodeJoinGeometry")
+
+    def math(operation: str, *operands: bpy.types.NodeSocket | float) -> bpy.types.Node:
+        node = group.nodes.new("ShaderNodeMath")
+        node.operation = operation
+        for socket, operand in zip(node.inputs, operands):
+            if isinstance(operand, float):
+                socket.default_value = operand
+            else:
+                group.links.new(operand, socket)
+        return node
+
+    value = number.outputs[4]  # the integer one of outputs that all have one name
+    counted = math("ABSOLUTE", value)
+    pick = math("SUBTRACT", counted.outputs[0], 1.0)
+    opposite = math("MULTIPLY", value, -1.0)
+    in_viewport = math("MULTIPLY", opposite.outputs[0], viewport.outputs[0])
+    wanted = math("MAXIMUM", value, in_viewport.outputs[0])
     for column, row, node in (
         (0, 0, given),
         (0, -250, number),
-        (1, -150, dies),
-        (1, -400, pick),
-        (2, -100, instances),
-        (3, 0, join),
-        (4, 0, result),
+        (0, -450, viewport),
+        (1, -400, opposite),
+        (1, -600, counted),
+        (2, -100, dies),
+        (2, -400, in_viewport),
+        (2, -600, pick),
+        (3, -300, wanted),
+        (4, -100, instances),
+        (5, 0, join),
+        (6, 0, result),
     ):
         node.location = (200 * column, row)
-    value = number.outputs[4]  # the integer one of outputs that all have one name
     for source, target in (
         (given.outputs["Geometry"], join.inputs["Geometry"]),
         (given.outputs["Geometry"], instances.inputs["Points"]),
         (given.outputs["Dies"], dies.inputs["Collection"]),
-        (value, pick.inputs[0]),
-        (value, instances.inputs["Selection"]),
+        (wanted.outputs[0], instances.inputs["Selection"]),
         (pick.outputs[0], instances.inputs["Instance Index"]),
         (dies.outputs[0], instances.inputs["Instance"]),
         (instances.outputs["Instances"], join.inputs["Geometry"]),
