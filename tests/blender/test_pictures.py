@@ -173,7 +173,7 @@ class Pictures(unittest.TestCase):
         self.assertGreater(groups, 1.5 * smooth)
 
     def test_the_committed_pictures_are_these(self) -> None:
-        # Three or six pixels of a committed picture are one here. What the wider pixel filter does to
+        # Three or six pixels of a committed picture are one here. What the pixel filter does to
         # lines of one pixel comes to 0.01 to 0.03, with the noise of wide lamps to 0.045; a die of
         # another seed to 0.08.
         for name, image in self.shown.items():

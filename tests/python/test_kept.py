@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The pictures that the repository keeps: where, in which format, and that they stay what they are."""
+"""The pictures that the repository keeps: where, in which format, and unchanged."""
 
 from __future__ import annotations
 

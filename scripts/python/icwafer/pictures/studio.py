@@ -22,7 +22,7 @@ _METAL: dict[str, NodeValue] = {
     "Roughness": 0.035,
 }
 _FULL = Render((1920, 1080), 64, noise=0.02, bounces=1)
-#: Under lamps that are narrow next to the lobes, or the other way round, light samples lose little.
+#: Where the lamp is narrow next to the lobes, or they next to it, few samples are lost.
 _EASY = dataclasses.replace(_FULL, samples=36)
 
 WAFER = Picture(
@@ -59,8 +59,8 @@ FRONT = Picture(
 TUBE = dataclasses.replace(
     WAFER,
     caption="The wafer under a fluorescent tube (F11): each line of its spectrum its own image.",
-    # Before the wafer, where the camera sees the second order: its images of the lines lie twice as
-    # far apart as those of the first, and are no wider.
+    # Before the wafer, where the camera sees the second order: its images of the lines lie twice
+    # as far apart as those of the first, and are no wider.
     lights=(
         Light("AREA", (0.0, -145.0, 560.0), 1.2e7, size_mm=(500.0, 6.0), fade=0.1),
         *WAFER.lights[2:],

@@ -42,7 +42,7 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         "--size", type=_size, default=(1920, 1080), metavar="WIDTHxHEIGHT", help="1920x1080"
     )
     command.add_argument(
-        "--samples", type=_samples, default=20, metavar="N", help="paths per pixel; default 20"
+        "--samples", type=_samples, default=26, metavar="N", help="paths per pixel; default 26"
     )
     command.add_argument("--exr", action="store_true", help="also write the linear light, as EXR")
     add_reading_options(command)

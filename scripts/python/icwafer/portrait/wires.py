@@ -21,7 +21,7 @@ from icwafer.layout_import.reader import Request, read_solids
 
 _log = logging.getLogger(__name__)
 
-#: What a renderer holds in 4 GB; larger chips are shown as blocks.
+#: What a renderer holds in about 5 GB; larger chips are shown as blocks.
 MOST_SOLIDS = 3_000_000
 #: Share of the light that rows of cells diffract, and how deep they are.
 CELLS = 0.35

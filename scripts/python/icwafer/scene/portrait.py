@@ -103,7 +103,8 @@ def _add_die(scene: bpy.types.Scene, die: Die, order: Order) -> tuple[tuple[floa
     made = parts(order.node)
     if order.wires:
         mesh = wires_mesh(Wires.read(Path(order.wires)))
-        mesh.materials.append(chip_material("Wires", LOGIC | order.node, WIRE_COLOUR, WIRE_ROUGHNESS))
+        values = LOGIC | order.node
+        mesh.materials.append(chip_material("Wires", values, WIRE_COLOUR, WIRE_ROUGHNESS))
         mesh.materials.append(metal_material("Wire Sides", SIDE_COLOUR, WIRE_ROUGHNESS))
         ground_mm = -0.0005
     else:
