@@ -23,6 +23,8 @@ from icwafer.pictures.effects import EFFECTS  # noqa: E402
 from icwafer.pictures.kept import kept_path  # noqa: E402
 
 WIDTH = 320
+#: Paths per pixel. A camera that makes colours richer does so with noise, too.
+SAMPLES, SAMPLES_RICHER = 16, 64
 
 
 def run_script(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -50,8 +52,9 @@ def read(path: Path) -> np.ndarray:
 def render(folder: Path, name: str, *options: str) -> np.ndarray:
     """The picture as the EXR has it, linear."""
     size = f"{WIDTH}x{height(name)}"
+    samples = SAMPLES_RICHER if PICTURES[name].response.saturation > 1 else SAMPLES
     done = run_script(
-        name, "--output", str(folder / name), "--size", size, "--samples", "16", *options
+        name, "--output", str(folder / name), "--size", size, "--samples", str(samples), *options
     )
     if done.returncode:
         raise AssertionError(f"{name}: {done.stderr}")
