@@ -43,17 +43,25 @@ WAFER = Picture(
 )
 
 FRONT = Picture(
-    "A 300 mm wafer seen from the front, under a row of lamps.",
+    "A 300 mm wafer seen from the front, under two lamps and a bluish ceiling.",
     PRESETS["dram"].dies[0],
     (
-        Light("AREA", (0.0, 310.0, 690.0), 0.8e6, size_mm=(600.0, 16.0), fade=0.4),
-        Light("AREA", (-300.0, -140.0, 690.0), 2.0e6, size_mm=(40.0, 60.0), fade=0.4),
+        # Its mirror image, drawn out along one axis, is the white band. A lamp longer than the
+        # lobes of the wires that run across would speckle these: few of its samples meet them. It
+        # stands so far aside that their own mirror image of it falls on the edge.
+        Light("AREA", (335.0, 340.0, 690.0), 1.4e6, size_mm=(48.0, 16.0), fade=0.4),
+        Light("AREA", (-310.0, -225.0, 690.0), 2.2e6, size_mm=(48.0, 60.0), fade=0.4),
+        # The ceiling, which shows dies far from all bands, and the rim.
+        Light(
+            "CARD", (0.0, 300.0, 1000.0), 1.4e6, colour=(0.4, 0.6, 1.0), size_mm=(3000.0, 3000.0)
+        ),
     ),
     Camera((0.0, -200.0, 690.0), (0.0, -4.0, 0.0), lens_mm=47.0),
-    _METAL | {"metal": "ALUMINIUM"},
+    # Shorter wires carry the bands further across the wafer.
+    _METAL | {"metal": "ALUMINIUM", "Wire Length": 0.9, "Roughness": 0.045},
     wafer="dram",
     view=View(exposure=0.5),
-    render=_EASY,
+    render=dataclasses.replace(_FULL, samples=96),
 )
 
 TUBE = dataclasses.replace(
