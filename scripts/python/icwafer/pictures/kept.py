@@ -7,6 +7,7 @@ from pathlib import Path
 
 from icwafer import paths
 from icwafer.errors import IcwaferError
+from icwafer.files import replacing
 from icwafer.pictures.model import Picture
 
 #: Larger pictures, in pixels, are kept as JPEG: as PNG, noise and all, they take five times the
@@ -38,11 +39,7 @@ def copy_picture(png: Path, path: Path) -> None:
     plain.specmod().attribute("Compression", f"jpeg:{_QUALITY}")
     plain.specmod().attribute("jpeg:subsampling", "4:4:4")
     plain.copy_pixels(picture)
-    part = path.with_name(f".part-{path.name}")
-    try:
-        if plain.has_error or not plain.write(str(part)):
+    with replacing(path) as unfinished:
+        if plain.has_error or not plain.write(str(unfinished)):
             reason = " ".join(plain.geterror().split())
             raise IcwaferError(f"cannot write {path}: {reason}; choose another folder")
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
