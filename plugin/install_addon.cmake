@@ -45,6 +45,7 @@ install(
   DESTINATION ${modules} COMPONENT addon
   PATTERN __pycache__ EXCLUDE
   PATTERN command.py EXCLUDE
+  PATTERN kept.py EXCLUDE
   PATTERN library EXCLUDE
   PATTERN map_picture.py EXCLUDE
   PATTERN plot.py EXCLUDE

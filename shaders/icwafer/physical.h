@@ -149,7 +149,7 @@ constexpr float grid_first_nm = 390.0f;
 constexpr float grid_last_nm = 730.0f;
 /* The shortest wavelength that matters to the eye: fringes are finest there. */
 constexpr float blue_nm = 420.0f;
-/* Bandwidth of a Gaussian of standard deviation 1 that leaves 0.1 % of it, and where it is cut
+/* Bandwidth of a Gaussian of standard deviation 1 that leaves 0.15 % of it, and where it is cut
  * off. */
 constexpr float gaussian_bandwidth = 3.6f;
 constexpr float lobe_reach = 4.5f;
@@ -166,7 +166,7 @@ constexpr float smooth_orders = 0.56f;
 constexpr float hidden = 6.5f;
 /* Where a grid's step is found. */
 constexpr float grid_middle_nm = 600.0f;
-/* Steps above this are rounded down to whole nanometres. */
+/* An order's steps above this are rounded down to whole nanometres. */
 constexpr float whole_step_nm = 2.0f;
 /* No grid has fewer nodes. */
 constexpr float few_nodes = 20.0f;
@@ -718,12 +718,14 @@ struct NodeQueue {
 
 /* f, integrated over the spectrum; not multiplied by the cosine.
  *
- * Given u and v the wavelengths are known, so nothing is chosen at random. The trapezoid rule
- * with step h is exact for a product of bandwidth below 2 pi / h; what varies is the film with
- * k per nanometre, and a lobe (bandwidth 3.8 / sigma_lambda) or the sensitivities times the lamp,
- * whichever is narrower. Seven tenths of the bandwidth of film and lamp, at which 0.1 % of the
- * amplitude is left, keep the integral within 0.3 %. Where only film and lamp vary, as for the
- * mirror order by itself, the fewer wavelengths of a rule (tables.h) do. */
+ * Given u and v the wavelengths are known, so nothing is chosen at random. The trapezoid rule with
+ * step h is exact for a product of bandwidth below 2 pi / h; what varies is the film, and a lobe
+ * (bandwidth 3.6 / sigma) or the sensitivities under the lamp, whichever is narrower. Seven tenths
+ * of the bandwidth of film and lamp (eight under lamps with lines), at which 0.1 % of the
+ * amplitude is left, keep the integral within 0.3 %. Few orders are taken one after the other,
+ * with a step for each; many on a grid; where the eye cannot tell them, their density. Where only
+ * film and lamp vary, as for the mirror order by itself, the fewer wavelengths of a rule
+ * (tables.h) do. */
 template<typename Tables>
 ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
                                    const LocalDirection i,
@@ -891,7 +893,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
                                             ripples == 1 ? slit :
                                                            0.0f);
   if (alone) {
-    path_nm = 0.0f;
+    /* Only film and lamp vary. */
   }
   else if (!mirror && !seen(1.0f) && path_1_nm > larger(2.0f, 10.0f * own_orders) * last_nm) {
     nodes.orders = Orders::Dense;

@@ -24,6 +24,10 @@ NAMES = (
     "card_turned",
     "card_itself",
     "table",
+    "dust",
+    "coloured",
+    "richer",
+    "glowing",
 )
 
 
@@ -40,10 +44,11 @@ class Studio(unittest.TestCase):
             folder=folder,
             seconds=120,
         )
-        cls.images = {
-            name: oiio.ImageBuf(str(folder / f"{name}.exr")).get_pixels(oiio.FLOAT)[..., 1]
+        cls.colours = {
+            name: oiio.ImageBuf(str(folder / f"{name}.exr")).get_pixels(oiio.FLOAT)[..., :3]
             for name in NAMES
         }
+        cls.images = {name: image[..., 1] for name, image in cls.colours.items()}
 
     def test_the_photographs_camera_sees_the_lattice_where_it_should(self) -> None:
         width, height = PICTURES["photograph"].render.size
@@ -80,6 +85,29 @@ class Studio(unittest.TestCase):
         table = self.images["table"]
         self.assertGreater(table[18, 32], 0.0)
         self.assertLess(table[1, 1], 0.01 * table[18, 32])
+
+    def test_dust_lies_inside_its_disc_and_is_bright(self) -> None:
+        dust = self.images["dust"]
+        row, column = np.nonzero(dust > 0.01 * dust.max())
+        # 100 mm below a lens as long as its sensor is wide: 64 pixels are 100 mm.
+        distance_mm = np.hypot(row + 0.5 - 18, column + 0.5 - 32) * 100 / 64
+        self.assertLess(distance_mm.max(), 20 + 2.5)
+        self.assertGreater(len(row), 100)
+        self.assertGreater(np.median(distance_mm), 20 * 0.6)  # 0.71 for an even density
+
+    def test_a_camera_may_make_colours_richer(self) -> None:
+        plain, richer = self.colours["coloured"], self.colours["richer"]
+        luminance = plain @ (0.2126, 0.7152, 0.0722)
+        expected = np.maximum(2 * plain - luminance[..., None], 0.0)
+        np.testing.assert_allclose(richer, expected, rtol=0.01, atol=0.002 * plain.max())
+        self.assertTrue((richer[18, 32] == 0).any())
+
+    def test_a_lens_scatters_light_around_and_keeps_it(self) -> None:
+        plain, glowing = self.images["coloured"], self.images["glowing"]
+        dark = plain == 0
+        self.assertGreater(glowing[dark].max(), 0.001 * plain.max())
+        self.assertLess(glowing[dark].max(), 0.1 * plain.max())
+        self.assertAlmostEqual(glowing.sum() / plain.sum(), 1.0, delta=0.05)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import sys
 import unittest
 from pathlib import Path
@@ -17,14 +18,14 @@ sys.path.insert(0, str(PACKAGE))
 
 from icwafer.chips.document import write_layout  # noqa: E402
 from icwafer.chips.model import Layout  # noqa: E402
-from icwafer.chips.placement import place_dies  # noqa: E402
+from icwafer.chips.placement import blank_fields_mm, place_dies  # noqa: E402
 from icwafer.chips.presets import PRESETS  # noqa: E402
 from icwafer.chips.wafer import Drift, Wafer  # noqa: E402
 
 
 def layout(**fields: object) -> Layout:
     """A wafer of 100 mm full of test chips."""
-    wafer = Wafer(diameter_mm=100, mark="flats", **fields)
+    wafer = Wafer(**({"diameter_mm": 100, "mark": "flats"} | fields))
     return dataclasses.replace(PRESETS["test-chip"], wafer=wafer)
 
 
@@ -37,6 +38,7 @@ class WaferTest(unittest.TestCase):
             # Four tenths more oxide and grooves on one side than on the other.
             "drift": layout(partial_dies=True, oxide=Drift(tilt=0.2), groove=Drift(tilt=0.2)),
             "complete": layout(),
+            "blank": layout(blank_fields=((0, 0),), film_edge_mm=0.5, mark="none"),
         }
         wafers = []
         for name, made in cls.layouts.items():
@@ -82,6 +84,16 @@ class WaferTest(unittest.TestCase):
     def test_the_disc_is_as_large_as_the_wafer(self) -> None:
         for facts in self.facts.values():
             self.assertAlmostEqual(facts["reach_mm"], 50.0, delta=0.4)  # less the bevel
+
+    def test_films_cover_what_was_not_exposed_and_end_in_a_line(self) -> None:
+        one = self.layouts["blank"]
+        areas = self.facts["blank"]["areas_mm2"]
+        x0, y0, x1, y1 = blank_fields_mm(one)[0]
+        self.assertAlmostEqual(areas["Chip Ground"], (x1 - x0) * (y1 - y0), delta=1e-3)
+        inner = one.wafer.usable_radius_mm
+        ring = math.pi * ((inner + 0.5) ** 2 - inner**2)
+        self.assertAlmostEqual(areas["Film Edge"], ring, delta=0.001 * ring)
+        self.assertNotIn("Film Edge", self.facts["even"]["areas_mm2"])
 
     def test_no_picture_is_black_or_uniform(self) -> None:
         for name, image in self.images.items():

@@ -8,6 +8,8 @@ import unittest
 import numpy as np
 
 from icwafer.chips.check import check_layout
+from icwafer.chips.die import generate
+from icwafer.chips.model import MM, Kind
 from icwafer.chips.placement import place_dies, reticle_field
 from icwafer.chips.presets import PRESETS
 from icwafer.compare.overlay import Plane, deflection
@@ -27,6 +29,10 @@ RIM = ((115, 432), (140, 495), (200, 572), (285, 635), (112, 317), (162, 225), (
 #: Corners of fields that hold test dies and of those that are bare, in cells.
 TEST_FIELDS = ((0, 0), (3, 0), (3, 5), (-3, -20), (0, -20), (0, -25))
 BLANK_FIELDS = ((-9, -20), (-9, 0), (-3, 5), (21, -30), (3, -30))
+
+#: Where the two bars of cells of a die begin and end, in cells: half of their brightness, in the
+#: mean of 130 near dies of the photograph.
+BARS = ((0.125, 0.445), (0.55, 0.88))
 
 PICTURE = PICTURES["photograph"]
 LAYOUT = PRESETS[PICTURE.wafer]
@@ -102,6 +108,15 @@ class Geometry(unittest.TestCase):
             for middle in cell_mm(np.array(field) + offset):
                 distance = np.hypot(*(places.centre_mm[places.die == 0] - middle).T)
                 self.assertGreater(distance.min(), 1.0)
+
+    def test_bars_are_as_wide_as_in_the_photograph(self) -> None:
+        # A hundredth of a die is a third of a pixel of the photograph.
+        die = generate(LAYOUT.dies[0])
+        kinds = np.array([group.kind for group in die.spec.groups])
+        cells = die.rect_nm[kinds[die.group] == Kind.PIXEL]
+        edges = np.unique(cells[:, [0, 2]], axis=0) / MM
+        lane_mm = LAYOUT.wafer.scribe_um / 1000
+        np.testing.assert_allclose((edges + lane_mm / 2) / pitch_mm()[0], BARS, atol=0.01)
 
 
 class Colours(unittest.TestCase):

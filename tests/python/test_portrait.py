@@ -130,6 +130,17 @@ class RigTest(unittest.TestCase):
         flat = np.stack([away @ right, away @ np.cross(right, forward)], axis=1)
         return flat / (away @ forward)[:, None] * camera.lens_mm / 18.0
 
+    def test_lamps_show_a_narrow_band_and_what_is_mirrored_takes_no_samples(self) -> None:
+        pose = Pose(turn_deg=-16.0, polar_deg=42.0, fill=0.9)
+        *lamps, card = rig((10.0, 7.0), (460.0, 2720.0), pose, 16 / 9).lights
+        self.assertEqual([lamp.kind for lamp in lamps], ["AREA", "AREA"])
+        self.assertEqual(card.kind, "CARD")
+        for lamp, spacing_nm in zip(lamps, (460.0, 2720.0)):
+            distance = math.hypot(*lamp.position_mm)
+            # du = d lambda / spacing; 100 nm is about what one colour has of the spectrum.
+            self.assertLess(lamp.size_mm[1] / distance * spacing_nm, 100.0)
+            self.assertGreater(lamp.size_mm[0], lamp.size_mm[1])
+
     def test_spacings_are_those_of_the_main_groups(self) -> None:
         # DRAM: one spacing for the cells, which are nearly all of the die.
         layout = PRESETS["dram"]
@@ -171,7 +182,7 @@ class WrongInputTest(CommandCase):
             ((self.good, "--top", "chop"), "'chip'"),
             ((self.good, "--size", "8x8"), "16 to 8192"),
             ((self.good, "--samples", "0"), "'0'"),
-            ((self.good, "-o", self.folder / "a.jpg"), ".png"),
+            ((self.good, "-o", self.folder / "a.gif"), ".png or .jpg"),
             ((self.good, "-o", self.folder / "b" / "a.png"), "no such folder"),
         ):
             with self.subTest(words):

@@ -23,7 +23,13 @@ from icwafer.chips.outline import (  # noqa: E402
     flats,
     outline_mm,
 )
-from icwafer.chips.placement import WaferMap, drift_at, place_dies, reticle_field  # noqa: E402
+from icwafer.chips.placement import (  # noqa: E402
+    WaferMap,
+    blank_fields_mm,
+    drift_at,
+    place_dies,
+    reticle_field,
+)
 from icwafer.chips.presets import PRESETS  # noqa: E402
 from icwafer.chips.wafer import Drift, Wafer  # noqa: E402
 from icwafer.errors import IcwaferError  # noqa: E402
@@ -209,6 +215,17 @@ class Dies(unittest.TestCase):
         bare = place_dies(replace(one, wafer=replace(wafer, blank_fields=((0, 0), (2, -1)))))
         self.assertEqual(len(plain) - len(bare), 2 * 15)
         self.assertFalse((bare.field == (2, -1)).all(axis=1).any())
+
+    def test_blank_fields_lie_where_no_die_stands(self) -> None:
+        wafer = Wafer(field_columns=3, field_rows=5, blank_fields=((0, 0), (2, -1)))
+        one = layout(4.0, 4.8, wafer)
+        blank = blank_fields_mm(one)
+        np.testing.assert_allclose(blank[:, 2:] - blank[:, :2], [(12.24, 24.4)] * 2)
+        whole = place_dies(replace(one, wafer=replace(wafer, blank_fields=())))
+        for field, rect in zip(wafer.blank_fields, blank):
+            inside = ((whole.centre_mm > rect[:2]) & (whole.centre_mm < rect[2:])).all(axis=1)
+            np.testing.assert_array_equal(inside, (whole.field == field).all(axis=1))
+            self.assertEqual(inside.sum(), 15)
 
     def test_a_die_or_a_lane_at_the_centre(self) -> None:
         for name, expected in (("die", 0.0), ("lane", 0.5)):

@@ -153,9 +153,9 @@ void ICWaferBsdfNode::compile(OSLCompiler & /*compiler*/)
 bool has_ic_wafer(const vector<Shader *> &shaders)
 {
   const NodeType *const type = ICWaferBsdfNode::get_node_type();
-  foreach (const Shader *shader, shaders) {
+  for (const Shader *shader : shaders) {
     if (shader->graph) {
-      foreach (const ShaderNode *node, shader->graph->nodes) {
+      for (const ShaderNode *node : shader->graph->nodes) {
         if (node->type == type) {
           return true;
         }

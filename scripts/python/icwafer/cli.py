@@ -22,6 +22,7 @@ from icwafer.assets import command as assets_command
 from icwafer.compare import command as compare_command
 from icwafer.compare import merge as merge_command
 from icwafer.errors import IcwaferError
+from icwafer.pictures import command as pictures_command
 from icwafer.portrait import command as portrait_command
 from icwafer.report import animate as animate_command
 from icwafer.report import command as report_command
@@ -41,19 +42,6 @@ def _demo(arguments: argparse.Namespace) -> int:
     build.build("blender", build.definitions(arguments.definitions))
     for path in render.render("full", paths.OUT / "demo" / "wafer"):
         print(path)
-    return 0
-
-
-def _pictures(arguments: argparse.Namespace) -> int:
-    from icwafer.pictures import PICTURES
-
-    unknown = [name for name in arguments.names if name not in PICTURES]
-    if unknown:
-        raise _UsageError(f"no picture '{unknown[0]}'; choose from {', '.join(PICTURES)}")
-    build.build("blender")
-    for name in arguments.names or PICTURES:
-        for path in render.render(name, paths.OUT / "pictures" / name):
-            print(path)
     return 0
 
 
@@ -132,11 +120,7 @@ def _parser() -> _Parser:
     layout_command.register(add)
     portrait_command.register(add)
     assets_command.register(add)
-    pictures = add("pictures", "render the README's pictures to out/pictures")
-    pictures.add_argument(
-        "names", nargs="*", metavar="NAME", help="pictures; all if none is named"
-    )
-    pictures.set_defaults(run=_pictures)
+    pictures_command.register(add)
     study_command.register(add)
     source_command = add("source", "unpack the host's source and apply the edits")
     source_command.add_argument(

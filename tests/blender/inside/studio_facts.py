@@ -22,27 +22,39 @@ import numpy as np  # noqa: E402
 from bpy_extras.object_utils import world_to_camera_view  # noqa: E402
 from mathutils import Vector  # noqa: E402
 
-from icwafer.pictures import PICTURES, Camera, Light, Render, Table, View  # noqa: E402
+from icwafer.pictures import (  # noqa: E402
+    PICTURES,
+    Camera,
+    Dust,
+    Light,
+    Render,
+    Response,
+    Table,
+    View,
+)
 from icwafer.scene.camera import camera_object  # noqa: E402
+from icwafer.scene.dust import dust_object  # noqa: E402
 from icwafer.scene.lamps import lamp  # noqa: E402
 from icwafer.scene.parts import metal_material  # noqa: E402
 from icwafer.scene.picture import empty_scene  # noqa: E402
 from icwafer.scene.polygons import polygon_mesh  # noqa: E402
 from icwafer.scene.render import set_render, set_view  # noqa: E402
+from icwafer.scene.response import set_response  # noqa: E402
 from icwafer.scene.studio import table_object  # noqa: E402
 
 #: Straight above; a mirror below it shows what hangs beside it.
 ABOVE = Camera((0.0, 0.0, 100.0), (0.0, 0.0, 0.0), lens_mm=36.0)
 SOFTBOX = Light("AREA", (0.0, 0.0, 101.0), 1e5, size_mm=(80.0, 40.0))
 CARD = dataclasses.replace(SOFTBOX, kind="CARD")
+COLOUR = (0.9, 0.3, 0.1)
 #: Where its own light falls on the camera's side of what it sees.
 FACING = Camera((0.0, 0.0, -100.0), (0.0, 0.0, 101.0), lens_mm=36.0)
 
 
-def metal(roughness: float) -> bpy.types.Object:
+def metal(roughness: float, colour: tuple[float, ...] = (1.0, 1.0, 1.0)) -> bpy.types.Object:
     corners = np.array([(-90, -90, 0), (90, -90, 0), (90, 90, 0), (-90, 90, 0)])
     mesh = polygon_mesh("Plane", corners, [np.arange(4)[None]])
-    mesh.materials.append(metal_material("Metal", (1.0, 1.0, 1.0), roughness))
+    mesh.materials.append(metal_material("Metal", colour, roughness))
     return bpy.data.objects.new("Plane", mesh)
 
 
@@ -62,7 +74,12 @@ SCENES = {
         lambda: (table_object(Table(60.0, (1.0, 1.0, 1.0), 0.5, 0.0)), lamp(SOFTBOX)),
         ABOVE,
     ),
+    "dust": (lambda: (dust_object(Dust(200, 500.0), 20.0), lamp(SOFTBOX)), ABOVE),
+    "coloured": (lambda: (metal(0.0, COLOUR), lamp(SOFTBOX)), ABOVE),
+    "richer": (lambda: (metal(0.0, COLOUR), lamp(SOFTBOX)), ABOVE),
+    "glowing": (lambda: (metal(0.0, COLOUR), lamp(SOFTBOX)), ABOVE),
 }
+RESPONSES = {"richer": Response(saturation=2.0), "glowing": Response(glow=0.1)}
 
 
 def render(name: str) -> None:
@@ -73,6 +90,7 @@ def render(name: str) -> None:
     scene.camera = camera_object(camera)
     scene.collection.objects.link(scene.camera)
     set_render(scene, Render((64, 36), 64, bounces=1))
+    set_response(scene, RESPONSES.get(name, Response()))
     set_view(scene, View("Standard", "None"))
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.filepath = str(Path(PARAMETERS["folder"]) / name)

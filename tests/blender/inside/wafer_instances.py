@@ -4,7 +4,8 @@
 Parameters: `package`, the folder to import icwafer from; `wafers`, a list of `layout` and `exr`.
 Reports of each wafer: `instances`, the places (x, y, z) of the instances; `parents`, the names of
 the objects that they belong to; `objects`, all objects of the scene but lamp and camera; `valid`,
-whether all meshes are; `reach_mm`, the farthest point of the disc.
+whether all meshes are; `reach_mm`, the farthest point of the disc; `areas_mm2`, of what lies on
+it, by the names of materials.
 """
 
 from __future__ import annotations
@@ -37,8 +38,11 @@ def build(layout: str, exr: str) -> dict[str, Any]:
         "valid": not any(mesh.validate() for mesh in bpy.data.meshes),
         "reach_mm": max(v.co.xy.length for p in wafer.data.polygons[:1]
                         for v in (wafer.data.vertices[i] for i in range(360))),
-        "instances": [], "parents": [],
+        "instances": [], "parents": [], "areas_mm2": {},
     }  # fmt: skip
+    for polygon in wafer.data.polygons:
+        name = wafer.data.materials[polygon.material_index].name.partition(".")[0]
+        facts["areas_mm2"][name] = facts["areas_mm2"].get(name, 0.0) + polygon.area
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
         if instance.is_instance and not instance.object.hide_render:
             facts["instances"].append(list(instance.matrix_world.translation))

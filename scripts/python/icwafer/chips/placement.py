@@ -130,6 +130,16 @@ def drift_at(drift: Drift, position_mm: np.ndarray, radius_mm: float) -> np.ndar
     )
 
 
+def blank_fields_mm(layout: Layout) -> np.ndarray:
+    """The fields that were not exposed, (k, 4) as x0, y0, x1, y1."""
+    wafer, product = layout.wafer, layout.dies[0]
+    field = reticle_field(product, wafer)
+    centres = [_field_centre(product, wafer, field, place) for place in wafer.blank_fields]
+    middle = np.array(centres).reshape(-1, 2)
+    half = np.array([field.width_mm, field.height_mm]) / 2
+    return np.concatenate([middle - half, middle + half], axis=1)
+
+
 def test_field_dies_mm(layout: Layout, place: tuple[int, int]) -> np.ndarray:
     """Middles (k, 2) of the test dies that fill a field.
 

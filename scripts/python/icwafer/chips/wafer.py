@@ -55,6 +55,9 @@ class Wafer:
     )
     mark: str = ruled("how its orientation is marked", choices=mark_names, default="notch")
     edge_exclusion_mm: float = ruled("rim without dies", 0, 30, default=3.0)
+    film_edge_mm: float = ruled(
+        "width of the pale line along which films end, in the edge exclusion", 0, 3, default=0.0
+    )
     bevel_mm: float = ruled("width of the rounded edge", 0, 1, default=0.35)
     scribe_um: float = ruled("lane between dies, where they are cut apart", 0, 1_000, default=80.0)
     field_columns: int = ruled(

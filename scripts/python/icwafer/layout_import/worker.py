@@ -12,6 +12,7 @@ KLayout must be importable here, and nowhere else.
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import resource
@@ -30,6 +31,10 @@ MOST_LEVELS = 1000
 MOST_SHAPES = 1_000_000_000
 #: Edges of one layer in one window.
 MOST_EDGES = 1_000_000
+#: Shapes as drawn for one of the merged ones: cells overlap. And how many of these are turned into
+#: numbers at once.
+RAW = 4
+CHUNK = 50_000
 #: Without a wish: tiles of this side, or larger ones that are not more than so many, and of each
 #: a window of at most this side.
 USUAL_TILE_UM = 25.0
@@ -248,28 +253,30 @@ def _send_solids(
 
     layers: from the top down. Corners are counted from the chip's lower left one.
     """
-    if sum(top.shapes(index).size() for indices in layers for index in indices) > most:
+    if sum(top.shapes(index).size() for indices in layers for index in indices) > RAW * most:
         return
     parts = []
     for indices in layers:
         shapes = db.Region()
         for index in indices:
             shapes += db.Region(top.begin_shapes_rec(index))
-            if shapes.count() > most:
+            if shapes.count() > RAW * most:
                 return
         parts.append(shapes.decompose_trapezoids_to_region())
         if sum(part.count() for part in parts) > most:
             return
     chip = top.bbox()
     for number, part in enumerate(parts):
-        corners = [
-            [(point.x - chip.left, point.y - chip.bottom) for point in polygon.each_point_hull()]
-            for polygon in part.each()
-        ]
-        # A triangle has its last corner twice.
-        table = np.array([four + four[-1:] * (4 - len(four)) for four in corners], dtype="<i8")
-        _send(answer, layer=number, solids=len(corners), dbu=dbu)
-        answer.write(table.tobytes())
+        _send(answer, layer=number, solids=part.count(), dbu=dbu)
+        polygons = part.each()
+        while chunk := list(itertools.islice(polygons, CHUNK)):
+            corners = (
+                [(point.x - chip.left, point.y - chip.bottom) for point in each.each_point_hull()]
+                for each in chunk
+            )
+            # A triangle has its last corner twice.
+            table = np.array([four + four[-1:] * (4 - len(four)) for four in corners], "<i8")
+            answer.write(table.tobytes())
 
 
 if __name__ == "__main__":

@@ -86,6 +86,24 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Irregular:
+    """Metal without a regular pattern: lanes, pads, and the share of a block that does not
+    diffract. Edges at random spread light widely and hardly colour it."""
+
+    colour: Vector = ruled("linear Rec.709", 0, 1, default=(0.10, 0.10, 0.11))
+    roughness: float = ruled("0 polished, 1 matt", 0, 1, default=0.4)
+
+
+@dataclass(frozen=True)
+class Dust:
+    """Grains that lie on a wafer, at random places."""
+
+    count: int = ruled("how many", 0, 100_000, default=0)
+    size_um: float = ruled("median diameter; one in six is twice as large", 1, 1000, default=60.0)
+    seed: int = ruled("start of the random numbers", 0, 2**32 - 1, default=1)
+
+
+@dataclass(frozen=True)
 class Camera:
     """A camera with a sensor 36 mm wide."""
 
@@ -113,6 +131,20 @@ class View:
     look: str = ruled("Blender's look for that transform", default="Medium High Contrast")
     exposure: float = ruled("in stops", -32, 32, default=0.0)
     gamma: float = ruled("applied last", 0.01, 5, default=1.0)
+
+
+@dataclass(frozen=True)
+class Response:
+    """What lens and camera make of the light, before the view; the saved picture has it."""
+
+    saturation: float = ruled(
+        "distance of colours from grey, as a factor, negative light cut off: cameras make colours "
+        "richer, and lights of one wavelength are paler here than they are",
+        0,
+        4,
+        default=1.0,
+    )
+    glow: float = ruled("share of light that the lens scatters around", 0, 1, default=0.0)
 
 
 @dataclass(frozen=True)
@@ -149,7 +181,10 @@ class Picture:
     camera: Camera
     node: Mapping[str, NodeValue] = field(default_factory=dict)
     wafer: str = ruled("wafer full of the die, none for one die", choices=wafer_names, default="")
+    irregular: Irregular = Irregular()
+    dust: Dust = Dust()
     table: Table = Table()
     environment: Environment = Environment()
+    response: Response = Response()
     view: View = View()
     render: Render = Render()

@@ -27,7 +27,11 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         "file", type=Path, metavar="FILE", help=".gds, .gds.gz, .oas, .def or .layout.toml"
     )
     command.add_argument(
-        "-o", "--output", type=Path, metavar="PICTURE", help="default: FILE's name with .png"
+        "-o",
+        "--output",
+        type=Path,
+        metavar="PICTURE",
+        help=".png or .jpg; default: FILE's name with .png"
     )
     command.add_argument(
         "--wafer",
@@ -38,7 +42,7 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
         "--size", type=_size, default=(1920, 1080), metavar="WIDTHxHEIGHT", help="1920x1080"
     )
     command.add_argument(
-        "--samples", type=_samples, default=20, metavar="N", help="paths per pixel; default 20"
+        "--samples", type=_samples, default=26, metavar="N", help="paths per pixel; default 26"
     )
     command.add_argument("--exr", action="store_true", help="also write the linear light, as EXR")
     add_reading_options(command)
@@ -64,15 +68,16 @@ def _samples(text: str) -> int:
 def _portrait(arguments: argparse.Namespace) -> int:
     source: Path = arguments.file
     output: Path = arguments.output or Path(source.name.split(".")[0] + ".png")
-    if output.suffix != ".png":
-        raise IcwaferError(f"{output}: a picture's name ends with .png; add that")
+    if output.suffix not in (".png", ".jpg"):
+        raise IcwaferError(f"{output}: a picture's name ends with .png or .jpg; add that")
     if not source.is_file():
         raise IcwaferError(f"{source}: no such file; name a chip or a layout")
     if not output.parent.is_dir():
         raise IcwaferError(f"{output.parent}: no such folder; make it, or choose another one")
     blender = render.blender()
-    packages.install("layout", "import")
+    packages.install("layout", "import", *(["images"] if output.suffix == ".jpg" else []))
     from icwafer.chips.document import ENDING, write_layout
+    from icwafer.pictures.kept import copy_picture
     from icwafer.portrait.order import Order
     from icwafer.portrait.subject import subject_of
 
@@ -103,7 +108,12 @@ def _portrait(arguments: argparse.Namespace) -> int:
             [folder / "order.json"],
             paths.LOGS / "portrait.log",
         )
-        for ending in (".exr", ".png") if arguments.exr else (".png",):
-            made[ending].replace(output.with_suffix(ending))
-            print(output.with_suffix(ending))
+        if arguments.exr:
+            made[".exr"].replace(output.with_suffix(".exr"))
+            print(output.with_suffix(".exr"))
+        if output.suffix == ".jpg":
+            copy_picture(made[".png"], output)
+        else:
+            made[".png"].replace(output)
+        print(output)
     return 0

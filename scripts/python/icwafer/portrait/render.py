@@ -17,7 +17,7 @@ import numpy as np  # noqa: E402
 from icwafer.errors import IcwaferError  # noqa: E402
 from icwafer.portrait.order import Order  # noqa: E402
 from icwafer.scene import image  # noqa: E402
-from icwafer.scene.portrait import build  # noqa: E402
+from icwafer.scene.portrait import build, light  # noqa: E402
 
 #: The lamps are such that this share of what is lit is darker than `BRIGHT` of full light.
 LIT_SHARE = 0.75
@@ -28,13 +28,12 @@ PROOF_SHARE, PROOF_SAMPLES = 8, 24
 
 def render(order: Order) -> None:
     """Writes the files of an order. Raises IcwaferError."""
-    scene = build(order)
+    scene, lights = build(order)
     folder = Path(order.png).parent
     image.expect_space(folder, order.size)
     # The lamps, not the view: the renderer's threshold of noise is for this brightness.
-    gain = _gain(scene, folder)
-    for lamp in bpy.data.lights:
-        lamp.energy *= gain
+    light(scene, lights, 1.0)
+    light(scene, lights, _gain(scene, folder))
     bpy.ops.render.render()
     for path in filter(None, (order.png, order.exr)):
         image.save(scene, Path(path))
@@ -49,9 +48,9 @@ def _gain(scene: bpy.types.Scene, folder: Path) -> float:
     bpy.ops.render.render()
     image.save(scene, proof)
     scene.render.resolution_percentage, scene.cycles.samples = size, samples
-    light = _brightest_channel(proof)
+    bright = _brightest_channel(proof)
     proof.unlink()
-    lit = light[light > 0.02 * np.percentile(light, 95)]
+    lit = bright[bright > 0.02 * np.percentile(bright, 95)]
     return float(BRIGHT / np.percentile(lit, 100 * LIT_SHARE)) if len(lit) else 1.0
 
 
@@ -60,9 +59,9 @@ def _brightest_channel(path: Path) -> np.ndarray:
     loaded = bpy.data.images.load(str(path))
     pixels = np.empty(len(loaded.pixels), dtype=np.float32)
     loaded.pixels.foreach_get(pixels)
-    light = pixels.reshape(-1, loaded.channels)[:, :3].max(axis=1)
+    brightest = pixels.reshape(-1, loaded.channels)[:, :3].max(axis=1)
     bpy.data.images.remove(loaded)
-    return light
+    return brightest
 
 
 def main(order: Path) -> int:

@@ -4,12 +4,14 @@
 Light of wavelength lambda leaves a grating of spacing d in order m where the directions to lamp
 and eye add up to u = m lambda / d across the wires and to v = 0 along them. So for wires that run
 along x, and for those that run along y, there is a softbox where the middle of the picture sees
-the middle of an order: long in the direction of the wires, narrow across, so that the bands are
-soft but do not all become white.
+the middle of an order. It is no larger than the lobes of the wires are wide: then nearly every
+sample of its light meets a lobe, and the picture has little noise. The softness of the bands comes
+from the lobes.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -26,9 +28,11 @@ _USUAL_U = 0.55
 #: Sine of the largest angle between the surface's normal and a lamp.
 _LOWEST_LAMP = 0.94
 #: Wavelengths that a place of the picture sees at once in the first order, by the lamp's width.
-_BAND_NM = 180.0
+_BAND_NM = 70.0
+#: Length of a lamp in the direction of the wires, relative to its distance.
+_LENGTH = 0.35
 #: Lamps stand this many sizes away.
-_DISTANCE = 3.0
+_DISTANCE = 5.0
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,7 @@ class Pose:
     turn_deg: float
     polar_deg: float
     fill: float
-    lens_mm: float = 60.0
+    lens_mm: float = 100.0
     f_stop: float = 0.0
 
 
@@ -134,16 +138,20 @@ def _key(
     """A softbox that shows the wires of one direction."""
     direction = direction_to_lamp(to_camera, along_wires, spacing_nm)
     distance = _DISTANCE * SIZE_MM
-    across = distance * float(np.clip(_BAND_NM / spacing_nm, 0.05, 0.4))
-    return _softbox(direction, along_wires, (1.1 * distance, across), power_w)
+    across = distance * float(np.clip(_BAND_NM / spacing_nm, 0.02, 0.2))
+    return _softbox(direction, along_wires, (_LENGTH * distance, across), power_w)
 
 
 def _sheen(to_camera: np.ndarray) -> Light:
-    """A dim, large softbox low behind the subject, which bare metal and the table reflect."""
-    low = to_camera * [-1.0, -1.0, 1.0] + [0.25, 0.0, -0.42]
+    """What bare metal and the table mirror: a dim, large wall of light behind the subject.
+
+    A card: as a lamp it would take its share of the samples from those that make colours.
+    """
+    behind = to_camera * [-1.0, -1.0, 1.0] + [0.25, 0.0, -0.25]
     distance = _DISTANCE * SIZE_MM
-    size = (1.4 * distance, 0.5 * distance)
-    return _softbox(low / np.linalg.norm(low), np.array([1.0, 0.0, 0.0]), size, 150.0)
+    size = (1.6 * distance, 1.0 * distance)
+    wall = _softbox(behind / np.linalg.norm(behind), np.array([1.0, 0.0, 0.0]), size, 400.0)
+    return dataclasses.replace(wall, kind="CARD", fade=1.0)
 
 
 def _softbox(

@@ -8,6 +8,7 @@ their layer and place.
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,8 +19,10 @@ from icwafer.layout_import.optics import Finding
 from icwafer.layout_import.process import Process
 from icwafer.layout_import.reader import Request, read_solids
 
-#: What a picture can show and a renderer hold; larger chips are shown as blocks.
-MOST_SOLIDS = 600_000
+_log = logging.getLogger(__name__)
+
+#: What a renderer holds in about 5 GB; larger chips are shown as blocks.
+MOST_SOLIDS = 3_000_000
 #: Share of the light that rows of cells diffract, and how deep they are.
 CELLS = 0.35
 CELL_GROOVE_NM = 150.0
@@ -66,6 +69,9 @@ def read_wires(request: Request, imported: Imported) -> Wires | None:
     """
     chip, *layers = read_solids(request, MOST_SOLIDS)
     if not any(len(layer.corners_um) for layer in layers):
+        _log.info(
+            "%s has more than %d wires: its blocks are shown instead", request.path, MOST_SOLIDS
+        )
         return None
     process = request.process
     ground_um = min(layer.bottom_um for layer in process.layers)

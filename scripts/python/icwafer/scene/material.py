@@ -9,7 +9,7 @@ import bpy
 
 from icwafer.attributes import OF_INSTANCES
 from icwafer.errors import IcwaferError
-from icwafer.pictures import NodeValue
+from icwafer.pictures import Irregular, NodeValue
 from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
 from icwafer.scene.properties import assign
 
@@ -25,9 +25,6 @@ DRIFTING = {
     "ic_cross_width_nm": "width",
 }
 
-#: Metal without a regular pattern: what its wires and gaps reflect on average, over many angles.
-IRREGULAR_COLOUR = (0.10, 0.10, 0.11)
-IRREGULAR_ROUGHNESS = 0.4
 #: Of chips in viewports without light and shade: their tint on average.
 VIEWPORT_COLOUR = (0.30, 0.24, 0.38)
 
@@ -64,8 +61,8 @@ def wafer_material(values: Mapping[str, NodeValue]) -> bpy.types.Material:
 def chip_material(
     name: str,
     values: Mapping[str, NodeValue] | None = None,
-    rest_colour: tuple[float, float, float] = IRREGULAR_COLOUR,
-    rest_roughness: float = IRREGULAR_ROUGHNESS,
+    rest_colour: tuple[float, float, float] = Irregular.colour,
+    rest_roughness: float = Irregular.roughness,
 ) -> bpy.types.Material:
     """A material for chips of the model PHYSICAL, driven by the attributes of mesh and instance.
 

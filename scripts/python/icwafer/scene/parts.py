@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from icwafer.pictures import NodeValue
+from icwafer.pictures import Irregular, NodeValue
 from icwafer.scene.material import chip_material
 
 #: Polished silicon, from the index of M. A. Green (2008) at 612, 549 and 464 nm: ((n-1)/(n+1))^2.
@@ -16,25 +16,31 @@ SILICON_COLOUR = (0.353, 0.367, 0.407)
 #: What lies between blocks, and the scribe lanes: etched and filled at random, so pale and matt.
 GROUND_COLOUR = (0.02, 0.02, 0.022)
 LANE_COLOUR = (0.25, 0.24, 0.22)
+#: Where films and resist end, in steps and crumbs.
+FILM_EDGE_COLOUR = (0.45, 0.47, 0.45)
 
 
 @dataclass(frozen=True)
 class Parts:
     """blocks: the wires; ground: what lies between blocks; lane: the scribe lanes between dies;
-    silicon: the bare rim, the edge and the back."""
+    film_edge: the line along which the films end; silicon: the bare rim, the edge and the back."""
 
     blocks: bpy.types.Material
     ground: bpy.types.Material
     lane: bpy.types.Material
+    film_edge: bpy.types.Material
     silicon: bpy.types.Material
 
 
-def parts(values: Mapping[str, NodeValue] | None = None) -> Parts:
+def parts(
+    values: Mapping[str, NodeValue] | None = None, irregular: Irregular = Irregular()
+) -> Parts:
     """New materials for a chip or wafer. values: of the blocks' node, see `chip_material`."""
     return Parts(
-        blocks=chip_material("Chip", values),
+        blocks=chip_material("Chip", values, irregular.colour, irregular.roughness),
         ground=metal_material("Chip Ground", GROUND_COLOUR, 0.35),
         lane=metal_material("Scribe Lane", LANE_COLOUR, 0.45),
+        film_edge=metal_material("Film Edge", FILM_EDGE_COLOUR, 0.6),
         silicon=metal_material("Polished Silicon", SILICON_COLOUR, 0.03),
     )
 

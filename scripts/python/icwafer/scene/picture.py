@@ -11,11 +11,13 @@ from icwafer.chips.die import generate
 from icwafer.chips.presets import PRESETS
 from icwafer.pictures import Picture
 from icwafer.scene.camera import camera_object
+from icwafer.scene.dust import dust_object
 from icwafer.scene.lamps import lamp
 from icwafer.scene.material import expect_node, wafer_material
 from icwafer.scene.mesh import die_mesh
 from icwafer.scene.parts import parts
 from icwafer.scene.render import set_render, set_view
+from icwafer.scene.response import set_response
 from icwafer.scene.studio import table_object
 from icwafer.scene.wafer import add_wafer
 from icwafer.scene.world import world
@@ -36,6 +38,7 @@ def build(picture: Picture) -> bpy.types.Scene:
     scene.collection.objects.link(scene.camera)
     scene.world = world(picture.environment)
     set_render(scene, picture.render)
+    set_response(scene, picture.response)
     set_view(scene, picture.view)
     return scene
 
@@ -45,12 +48,17 @@ def add_subject(picture: Picture, collection: bpy.types.Collection) -> bpy.types
     if picture.wafer:
         ready = PRESETS[picture.wafer]
         layout = dataclasses.replace(ready, dies=(picture.die, *ready.dies[1:]))
-        return add_wafer(layout, collection, parts(picture.node))
+        wafer = add_wafer(layout, collection, parts(picture.node, picture.irregular))
+        if picture.dust.count:
+            dust = dust_object(picture.dust, layout.wafer.usable_radius_mm)
+            dust.parent = wafer
+            collection.objects.link(dust)
+        return wafer
     # On a table a die has the ground between its blocks.
     on_table = picture.table.size_mm > 0
     die = bpy.data.objects.new("Die", die_mesh(generate(picture.die), ground=on_table))
     if on_table:
-        materials = parts(picture.node)
+        materials = parts(picture.node, picture.irregular)
         die.data.materials.append(materials.blocks)
         die.data.materials.append(materials.ground)
     else:

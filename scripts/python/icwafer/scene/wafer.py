@@ -20,7 +20,7 @@ from icwafer.chips.clip import Pieces, cut_to_usable
 from icwafer.chips.die import generate
 from icwafer.chips.model import Die, Layout
 from icwafer.chips.outline import edge_profile_mm, outline_mm
-from icwafer.chips.placement import WaferMap, place_dies
+from icwafer.chips.placement import WaferMap, blank_fields_mm, place_dies
 from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
 from icwafer.scene.material import DRIFTS
@@ -71,7 +71,7 @@ def wafer_in_steps(
     kind_of = yield from _die_meshes(meshes, layout, places, gap_nm)
     plates &= len(meshes) > 0
     mesh = _disc_mesh(name, layout, places, kind_of, plates)
-    for material in (parts.silicon, parts.lane):
+    for material in (parts.silicon, parts.lane, parts.ground, parts.film_edge):
         mesh.materials.append(material)
     wafer = bpy.data.objects.new(name, mesh)
     dies = bpy.data.collections.new(f"{name} dies")
@@ -148,7 +148,11 @@ def _partial_mesh(
 def _disc_mesh(
     name: str, layout: Layout, places: WaferMap, kind_of: np.ndarray, with_stand_in: bool
 ) -> bpy.types.Mesh:
-    """The disc, the ground of the scribe lanes on it, and a loose point for each instance."""
+    """The disc, what lies on it but for the dies, and a loose point for each instance.
+
+    On it lie the ground of the scribe lanes, films without a pattern where fields were not
+    exposed, and the line along which the films end.
+    """
     wafer = layout.wafer
     rings = [
         np.insert(outline_mm(wafer, inset), 2, height - 2 * STEP_MM, axis=1)
@@ -163,25 +167,32 @@ def _disc_mesh(
     ]
     back = index[::-1] + (len(rings) - 1) * around
     lanes = _grounds_mm(layout, places, layout.wafer.scribe_um / 1000)
+    blanks = _cut_mm(blank_fields_mm(layout), wafer)
+    film_edge = _film_edge_mm(wafer)
+    patches = [*lanes, *blanks, *film_edge]
     stands = np.flatnonzero(kind_of >= 0)
-    lane_points = at_height(lanes, -1.5 * STEP_MM)
+    patch_points = at_height(patches, -1.5 * STEP_MM)
     stand_in_point = np.zeros((int(with_stand_in), 2))
     instances = at_height([places.centre_mm[stands], stand_in_point], 0.0)
     disc = around * len(rings)
     mesh = polygon_mesh(
         name,
-        np.concatenate([*rings, lane_points, instances]),
-        [index[None], back[None], *sides, *loose_faces(lanes, disc)],
+        np.concatenate([*rings, patch_points, instances]),
+        [index[None], back[None], *sides, *loose_faces(patches, disc)],
     )
     edge = np.zeros(len(mesh.polygons), dtype=bool)
-    edge[2 : 2 + around * len(sides)] = True  # the faces are flat, the edge is round
+    silicon = 2 + around * len(sides)
+    edge[2:silicon] = True  # the faces are flat, the edge is round
     mesh.polygons.foreach_set("use_smooth", edge)
     mesh.polygons.foreach_set(
-        "material_index", (np.arange(len(edge)) >= 2 + around * len(sides)).astype(np.int32)
+        "material_index",
+        np.repeat(
+            np.arange(4, dtype=np.int32), [silicon, len(lanes), len(blanks), len(film_edge)]
+        ),
     )
 
     def on_points(of_dies: np.ndarray, of_stand_in: float = 0.0) -> np.ndarray:
-        of_others = np.zeros(disc + len(lane_points))
+        of_others = np.zeros(disc + len(patch_points))
         return np.r_[of_others, of_dies[stands], np.full(len(stand_in_point), of_stand_in)]
 
     number = on_points(kind_of + 1, -(kind_of.max(initial=-1) + 2))
@@ -197,8 +208,24 @@ def _grounds_mm(layout: Layout, places: WaferMap, lane_mm: float) -> list[np.nda
     sizes = np.array([(die.width_mm, die.height_mm) for die in layout.dies])[places.die]
     half = (sizes + lane_mm) / 2
     rects = np.concatenate([places.centre_mm - half, places.centre_mm + half], axis=1)
-    pieces = cut_to_usable(rects, layout.wafer)
-    whole: Sequence[np.ndarray] = rects[pieces.whole][:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
+    return _cut_mm(rects, layout.wafer)
+
+
+def _film_edge_mm(wafer: Wafer) -> list[np.ndarray]:
+    """The line along which the films end, in quadrangles: (4, 2) each; not on the round edge."""
+    outer_mm = max(wafer.edge_exclusion_mm - wafer.film_edge_mm, wafer.bevel_mm)
+    if outer_mm >= wafer.edge_exclusion_mm:
+        return []
+    inner, outer = (outline_mm(wafer, inset) for inset in (wafer.edge_exclusion_mm, outer_mm))
+    return list(
+        np.stack([inner, outer, np.roll(outer, -1, axis=0), np.roll(inner, -1, axis=0)], axis=1)
+    )
+
+
+def _cut_mm(rects_mm: np.ndarray, wafer: Wafer) -> list[np.ndarray]:
+    """What of rectangles (n, 4) lies on the usable area: (k, 2) each."""
+    pieces = cut_to_usable(rects_mm, wafer)
+    whole: Sequence[np.ndarray] = rects_mm[pieces.whole][:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
     return [*whole, *(polygon for _, polygon in pieces.cut)]
 
 

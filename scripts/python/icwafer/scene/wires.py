@@ -11,23 +11,31 @@ from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
 from icwafer.scene.polygons import add_attribute, polygon_mesh
 
 
-def wires_mesh(wires: Wires) -> bpy.types.Mesh:
-    """A solid for each wire, in mm.
+#: Of more wires nobody sees the sides: a picture is some 2000 pixels wide.
+MOST_SIDES = 600_000
 
-    Its top carries the attributes and has the material of index 0, its sides the one of index 1.
+
+def wires_mesh(wires: Wires) -> bpy.types.Mesh:
+    """A solid for each wire, in mm; of more than `MOST_SIDES` only the tops.
+
+    The top carries the attributes and has the material of index 0, the sides the one of index 1.
     """
     count = len(wires.corners_um)
-    rings = np.zeros((2, count, 4, 3))
+    heights = [wires.top_um, wires.bottom_um][: 2 if count <= MOST_SIDES else 1]
+    rings = np.zeros((len(heights), count, 4, 3))
     rings[..., :2] = wires.corners_um[:, ::-1]
-    rings[0, ..., 2], rings[1, ..., 2] = wires.top_um[:, None], wires.bottom_um[:, None]
+    rings[..., 2] = np.stack(heights)[..., None]
     top = np.arange(4 * count).reshape(-1, 4)
-    bottom, following = top + 4 * count, np.roll(top, -1, axis=1)
-    sides = np.stack([top, bottom, np.roll(bottom, -1, axis=1), following], axis=2)
-    mesh = polygon_mesh("Wires", rings.reshape(-1, 3) / 1000, [top, sides.reshape(-1, 4)])
-    is_side = np.arange(5 * count) >= count
+    polygons = [top]
+    if len(heights) == 2:
+        bottom, following = top + 4 * count, np.roll(top, -1, axis=1)
+        sides = np.stack([top, bottom, np.roll(bottom, -1, axis=1), following], axis=2)
+        polygons.append(sides.reshape(-1, 4))
+    mesh = polygon_mesh("Wires", rings.reshape(-1, 3) / 1000, polygons)
+    is_side = np.arange(len(mesh.polygons)) >= count
     mesh.polygons.foreach_set("material_index", is_side.astype(np.int32))
     for name in SOCKET_OF_ATTRIBUTE:
-        values = np.zeros(5 * count, dtype=np.float32)
+        values = np.zeros(len(is_side), dtype=np.float32)
         values[:count] = wires.attributes.get(name.removeprefix("ic_"), 0.0)
         add_attribute(mesh, name, "FACE", values)
     return mesh
