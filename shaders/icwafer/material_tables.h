@@ -89,11 +89,37 @@ inline void append_bands(std::vector<float> &tables,
     const int cell = first_above(edges, (1.0 - part) * edges[first] + part * edges[last]);
     edge.push_back(k > 0 ? std::max(cell, edge.back() + 1) : cell);
   }
-  for (const int cell : edge) {
-    tables.push_back(float(visible_first_nm + cell) + 0.5f);
+  const auto edge_nm = [&](const int k) { return double(visible_first_nm + edge[k]) + 0.5; };
+  /* What the nodes share in a band: one of them, or its neighbours. */
+  const auto share = [](const int node, const int band) {
+    return 0.5 * ((band / 2 == node) + ((band + 1) / 2 == node));
+  };
+  for (int k = 0; k < band_edge_count; k++) {
+    tables.push_back(float(edge_nm(k)));
   }
-  for (int k = 0; k + 1 < band_edge_count; k++) {
-    tables.push_back(float(weight[edge[k + 1]] - weight[edge[k]]));
+  double part[band_node_count] = {};
+  for (int node = 0; node < band_node_count; node++) {
+    double rise[band_edge_count] = {};
+    for (int band = 0; band < band_count; band++) {
+      const double power = share(node, band) * (weight[edge[band + 1]] - weight[edge[band]]);
+      const double density = power / (edge_nm(band + 1) - edge_nm(band));
+      rise[band] += density;
+      rise[band + 1] -= density;
+      part[node] += power / (weight[edge[band_count]] - weight[edge[0]]);
+    }
+    tables.insert(tables.end(), rise, rise + band_edge_count);
+  }
+  const auto append_nodes = [&](const auto &value) {
+    for (int k = 0; k < 2 * band_node_count; k++) {
+      const int node = k % band_node_count;
+      tables.push_back(float(value(node, 0.5 * (edge_nm(2 * node) + edge_nm(2 * node + 1)))));
+    }
+  };
+  append_nodes([](int, const double nm) { return nm; });
+  append_nodes([&](const int node, double) { return 0.5 * part[node]; });
+  for (int metal = 0; metal < metal_tabulated_count; metal++) {
+    append_nodes([&](int, const double nm) { return index_of(metal, nm).n; });
+    append_nodes([&](int, const double nm) { return index_of(metal, nm).k; });
   }
 }
 
