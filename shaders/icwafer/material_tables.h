@@ -46,7 +46,9 @@ inline void append_rules(std::vector<float> &tables, const ColourTable &sensitiv
 }
 
 /* Noise of a colour is least where it is sampled in proportion to the root of the mean square of
- * what it adds; here to the luminance and to the channels, half each. */
+ * what it adds; here to the luminance, and less to the channels. */
+constexpr double luminance_part = 0.65;
+
 inline double sampling_weight(const std::array<double, 3> &rgb,
                               const std::array<double, 3> &luminance_weight)
 {
@@ -55,7 +57,7 @@ inline double sampling_weight(const std::array<double, 3> &rgb,
     luminance += luminance_weight[c] * rgb[c];
     channels += rgb[c] * rgb[c] / 3.0;
   }
-  return std::sqrt(0.5 * (luminance * luminance + channels));
+  return std::sqrt(luminance_part * luminance * luminance + (1.0 - luminance_part) * channels);
 }
 
 /* Part of the edges that is spread evenly over the spectrum. */
