@@ -98,6 +98,11 @@ ICW_DEVICE Lanes lanes_round(const Lanes x)
   return __builtin_convertvector(__builtin_convertvector(x + half, LanesInt), Lanes);
 }
 
+ICW_DEVICE Lanes lanes_floor(const Lanes x)
+{
+  return __builtin_convertvector(__builtin_convertvector(x, LanesInt), Lanes);
+}
+
 /* 2^x for -126 <= x <= 126: the whole part goes into the exponent, for the rest on [-1/2, 1/2]
  * the Taylor series of 2^x. */
 ICW_DEVICE Lanes lanes_exp2(const Lanes x)
@@ -188,6 +193,11 @@ ICW_DEVICE void store_lanes(const Lanes x, float *to)
 ICW_DEVICE Lanes lanes_round(const Lanes x)
 {
   return floorf(x + 0.5f);
+}
+
+ICW_DEVICE Lanes lanes_floor(const Lanes x)
+{
+  return floorf(x);
 }
 
 ICW_DEVICE Lanes lanes_exp2(const Lanes x)
