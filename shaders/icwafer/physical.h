@@ -2,19 +2,20 @@
 
 /* The PHYSICAL model (physical_model.h), integrated over the spectrum.
  *
- * Given u and v the wavelengths are known, so nothing is chosen at random: orders, film and the eye
- * under the lamp say how fast the integrand varies, and that says which few wavelengths do. Each
- * way to choose them keeps the integral within 0.5 % (RMS over the directions), most within 0.1 %.
+ * Given u and v the wavelengths are known, so nothing is chosen at random: orders, film and the
+ * eye under the lamp say how fast the integrand varies, and that says which few wavelengths do.
+ * Each way to choose them keeps the integral within 0.5 % (RMS over the directions), most within
+ * 0.1 %.
  *
  * - Only film and lamp vary (the mirror order by itself), or little else does: a quadrature rule
  *   that was made for that (spectral_rules.h).
  * - Orders too close to tell apart, by their own width or because the eye blurs them: their mean
  *   density, with those of its ripples that are seen.
  * - Several orders: each by the one to three nodes of a Gauss-Hermite rule.
- * - A single order or two, and lamps with lines: the trapezoid rule over each order. With step h it
- *   is exact for a product of bandwidth below 2 pi / h. Seven tenths of the bandwidth of film and
- *   lamp (eight under lamps with lines), at which 0.1 % of the amplitude is left, keep the integral
- *   within 0.3 %.
+ * - A single order or two, and lamps with lines: the trapezoid rule over each order. With step h
+ * it is exact for a product of bandwidth below 2 pi / h. Seven tenths of the bandwidth of film and
+ *   lamp (eight under lamps with lines), at which 0.1 % of the amplitude is left, keep the
+ * integral within 0.3 %.
  * - Else the trapezoid rule over the visible range, all orders at each node. */
 
 #pragma once
@@ -64,8 +65,9 @@ constexpr int window_limit = 24;
 constexpr int most_nodes_per_order = 3;
 constexpr float node_sigma_nm[most_nodes_per_order] = {4.0f, 8.0f, 10.5f};
 constexpr float node_film[most_nodes_per_order] = {0.15f, 0.5f, 1.0f};
-/* With fewer orders the ends of the visible range matter, too. */
-constexpr float few_orders = 5.0f;
+/* Between these an order counts; of fewer orders it matters more how well each is integrated. */
+constexpr float order_first_nm = 387.0f, order_last_nm = 740.0f;
+constexpr float least_orders = 3.0f, few_orders = 5.0f, few_orders_sigma = 0.7f;
 
 /* How fast the integrand varies over the spectrum, for one pair of directions. A path X is what
  * makes cos(2 pi X / lambda). */
@@ -132,28 +134,44 @@ struct Variation {
     return gaussian_bandwidth / two_pi * square(grid_last_nm) / sigma_nm(grid_last_nm);
   }
 
-  /* The smallest rule (tables.h) for what varies as films do, with harmonics, up to this path
-   * besides the film itself, and for ripples; rule_count where none will do. */
-  ICW_DEVICE_METHOD int rule(const float lobe_nm, const float ripple_nm) const
+  /* The smallest rule (tables.h) for the film and this path; rule_count where none will do. */
+  ICW_DEVICE_METHOD int rule(const float path_nm) const
   {
-    const float path_nm = film_path_nm + lobe_nm;
     int number = 0;
-    while (number < rule_count && (path_nm >= rule_path_nm(number) ||
-                                   path_nm + ripple_nm >= rule_fitted_paths * rule_path_nm(number)))
-    {
+    while (number < rule_count &&
+           (film_path_nm >= rule_path_nm(number) ||
+            film_path_nm + path_nm >= rule_fitted_paths * rule_path_nm(number))) {
       number++;
     }
     return number;
   }
 
-  /* Whether a ripple of so many turns for each order is seen: lobes of a standard deviation of
-   * `own_orders` hide it, and the eye blurs it. */
-  ICW_DEVICE_METHOD bool sees(const float turns, const float own_orders) const
+  /* How many ripples of the density of orders are seen: lobes of a standard deviation of
+   * `own_orders` hide them, and the eye blurs them. */
+  ICW_DEVICE_METHOD int ripples(const float own_orders) const
   {
-    return 2.0f * square(pi * turns * own_orders) +
-               illuminant_blur_per_nm(p.illuminant) *
-                   larger(turns * order_path_nm() - film_path_nm, 0.0f) <
-           hidden;
+    int count = 0;
+    while (count < ripple_limit) {
+      const float turns = ripple_turns(count, slit());
+      if (2.0f * square(pi * turns * own_orders) +
+              illuminant_blur_per_nm(p.illuminant) *
+                  larger(turns * order_path_nm() - film_path_nm, 0.0f) >
+          hidden) {
+        break;
+      }
+      count++;
+    }
+    return count;
+  }
+
+  ICW_DEVICE_METHOD float ripple_path_nm(const int ripples) const
+  {
+    return ripples > 0 ? order_path_nm() * ripple_turns(ripples - 1, slit()) : 0.0f;
+  }
+
+  ICW_DEVICE_METHOD float slit() const
+  {
+    return smaller(lattice.duty, 1.0f - lattice.duty);
   }
 };
 
@@ -173,16 +191,18 @@ struct OrderRules {
 ICW_DEVICE OrderRules order_rules(const Variation &variation)
 {
   const float path_nm = variation.order_path_nm();
-  const float first = larger(ceilf(path_nm / 740.0f), 1.0f);
+  const float first = larger(ceilf(path_nm / order_last_nm), 1.0f);
   constexpr float nm = 550.0f;
   const float sigma_nm = variation.sigma_nm(nm);
   const float film = sigma_nm * two_pi * variation.film_path_nm / square(nm);
+  const float count = floorf(path_nm / order_first_nm) - first + 1.0f;
+  const float part = count < few_orders ? few_orders_sigma : 1.0f;
   int nodes = 0;
   while (nodes < most_nodes_per_order &&
-         (sigma_nm > node_sigma_nm[nodes] || film > node_film[nodes])) {
+         (sigma_nm > part * node_sigma_nm[nodes] || film > node_film[nodes])) {
     nodes++;
   }
-  return {first, floorf(path_nm / 387.0f) - first + 1.0f, nodes + 1};
+  return {first, count, nodes + 1};
 }
 
 template<typename Tables>
@@ -203,10 +223,13 @@ ICW_DEVICE_LARGE void add_order_rules(Integrator<Tables> &nodes,
     const Lanes x = (k - float(per_order) * number - centre) * apart;
     const Lanes order = rules.first + number;
     const Lanes middle_per_nm = order / variation.order_path_nm();
-    const Lanes sigma = per_q * lanes_sqrt(lobe_variance(
-                                    variation.p, variation.lattice, 1.0f / middle_per_nm, lanes(variation.q)));
+    const Lanes sigma = per_q * lanes_sqrt(lobe_variance(variation.p,
+                                                         variation.lattice,
+                                                         1.0f / middle_per_nm,
+                                                         lanes(variation.q)));
     const Lanes nm = 1.0f / (middle_per_nm * (1.0f + x * sigma));
-    const Lanes step = (x == 0.0f ? lanes(middle_step) : lanes(outer_step)) * sigma * middle_per_nm * nm * nm;
+    const Lanes step = (x == 0.0f ? lanes(middle_step) : lanes(outer_step)) * sigma *
+                       middle_per_nm * nm * nm;
     const Lanes inside = lanes_min(lanes_max(nm, lanes(first_nm)), lanes(last_nm - 1.0f));
     const Lanes seen = k < float(rules.node_count()) ? step : lanes(0.0f);
     nodes.add_lanes(inside, inside == nm ? seen : lanes(0.0f), order);
@@ -264,7 +287,41 @@ ICW_DEVICE_LARGE void add_trapezoids(Integrator<Tables> &nodes,
   queue.flush();
 }
 
-/* One order after the other, if that takes fewer nodes than all of them on a grid. */
+/* How all orders are taken at each node, and the path that varies then beside film and lamp. */
+struct AllOrders {
+  Orders orders;
+  int ripples;
+  float path_nm;
+};
+
+ICW_DEVICE AllOrders all_orders(const Variation &variation, const bool mirror)
+{
+  const float own_orders = variation.sigma_orders(last_nm);
+  const bool far = !mirror &&
+                   variation.order_path_nm() > larger(2.0f, 10.0f * own_orders) * last_nm;
+  if (far || own_orders >= smooth_orders) {
+    const int ripples = variation.ripples(own_orders);
+    if (!far || ripples < ripple_limit) {
+      return {far ? Orders::Dense : Orders::All, ripples, variation.ripple_path_nm(ripples)};
+    }
+  }
+  const bool apart = 2.0f * apart_reach * variation.sigma_orders(first_nm) < 1.0f;
+  return {apart ? Orders::Single : Orders::All, 0, variation.lobe_path_nm()};
+}
+
+/* A single one's nodes are chosen for its lobe, which no rule is. */
+ICW_DEVICE int rule_for(const Variation &variation, const AllOrders &all)
+{
+  return all.orders == Orders::Single ? rule_count : variation.rule(all.path_nm);
+}
+
+ICW_DEVICE float node_count(const Variation &variation, const AllOrders &all)
+{
+  const int rule = rule_for(variation, all);
+  return rule < rule_count ? float(rule_nodes(rule)) : variation.grid_nodes(all.path_nm);
+}
+
+/* One order after the other, if that takes fewer nodes than all of them at each. */
 template<typename Tables>
 ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
                                  const Variation &variation,
@@ -272,16 +329,13 @@ ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
                                  const float most)
 {
   const auto few = [&](const float count) {
-    return count < few_nodes ||
-           count < variation.grid_nodes(variation.sigma_orders(last_nm) > smooth_orders ?
-                                            0.0f :
-                                            variation.lobe_path_nm());
+    return count < few_nodes || count < node_count(variation, all_orders(variation, false));
   };
+  nodes.orders = Orders::Single;
   if (variation.lamp_is_smooth()) {
     const OrderRules rules = order_rules(variation);
-    if (rules.count >= few_orders && rules.nodes_per_order <= most_nodes_per_order &&
+    if (rules.count >= least_orders && rules.nodes_per_order <= most_nodes_per_order &&
         few(float(rules.node_count()))) {
-      nodes.orders = Orders::Single;
       add_order_rules(nodes, variation, rules);
       return true;
     }
@@ -298,7 +352,6 @@ ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
   if (!few(count)) {
     return false;
   }
-  nodes.orders = Orders::Single;
   add_trapezoids(nodes, variation, first, last, last_lobe);
   return true;
 }
@@ -380,47 +433,21 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
       q,
       2.0f * sqrtf(larger(square(blue_ior) - 1.0f + square(pair.cosine), 0.0f)) *
           (p.oxide_nm + p.groove_nm)};
-  /* What varies beside film and lamp. */
-  float lobe_path_nm = 0.0f, ripple_path_nm = 0.0f;
   const float order_1 = first_nm / spacing_nm;
-  if (q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) < order_1) {
-    nodes.orders = Orders::None;
+  const bool alone = q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) <
+                     order_1;
+  if (!mirror && !alone && add_orders(nodes, variation, order_first, order_most)) {
+    return nodes.sum();
   }
-  else {
-    const float own_orders = variation.sigma_orders(last_nm);
-    const bool dense = !mirror &&
-                       variation.order_path_nm() > larger(2.0f, 10.0f * own_orders) * last_nm &&
-                       !variation.sees(1.0f, own_orders);
-    if (!mirror && !dense && add_orders(nodes, variation, order_first, order_most)) {
-      return nodes.sum();
-    }
-    if (!dense && own_orders < smooth_orders) {
-      lobe_path_nm = variation.lobe_path_nm();
-      if (2.0f * apart_reach * variation.sigma_orders(first_nm) < 1.0f) {
-        nodes.orders = Orders::Single;
-      }
-    }
-    else {
-      const float slit = smaller(nodes.first.duty, 1.0f - nodes.first.duty);
-      const int ripples = variation.sees(1.0f - slit, own_orders) ? 2 :
-                          variation.sees(slit, own_orders)        ? 1 :
-                                                                    0;
-      ripple_path_nm = variation.order_path_nm() * (ripples == 2 ? 1.0f - slit :
-                                                    ripples == 1 ? slit :
-                                                                   0.0f);
-      if (dense) {
-        nodes.orders = Orders::Dense;
-        nodes.dense_ripples = ripples;
-      }
-    }
-  }
-
-  const int rule = nodes.orders == Orders::Single ? rule_count : variation.rule(lobe_path_nm, ripple_path_nm);
+  const AllOrders all = alone ? AllOrders{Orders::None, 0, 0.0f} : all_orders(variation, mirror);
+  nodes.orders = all.orders;
+  nodes.dense_ripples = all.ripples;
+  const int rule = rule_for(variation, all);
   if (rule < rule_count) {
     nodes.add_rule(rule);
     return nodes.sum();
   }
-  add_grid(nodes, variation, larger(lobe_path_nm, ripple_path_nm));
+  add_grid(nodes, variation, all.path_nm);
   return nodes.mean();
 }
 

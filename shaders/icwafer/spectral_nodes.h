@@ -132,9 +132,8 @@ struct Integrator {
   ICW_DEVICE_METHOD Rgb mean() const
   {
     const Rgb s = sum();
-    return {s.r / lanes_sum(weight_red),
-            s.g / lanes_sum(weight_green),
-            s.b / lanes_sum(weight_blue)};
+    return {
+        s.r / lanes_sum(weight_red), s.g / lanes_sum(weight_green), s.b / lanes_sum(weight_blue)};
   }
 
   /* f at the wavelengths of the nodes. */
