@@ -91,11 +91,17 @@ ICW_DEVICE void store_lanes(const Lanes x, float *to)
   __builtin_memcpy(to, &x, sizeof(x));
 }
 
-/* The nearest whole number; |x| < 2^31. */
+/* The nearest whole number; |x| < 2^22. Floats as large as the one that is added are whole. */
 ICW_DEVICE Lanes lanes_round(const Lanes x)
 {
-  const Lanes half = x < 0.0f ? lanes(-0.5f) : lanes(0.5f);
-  return __builtin_convertvector(__builtin_convertvector(x + half, LanesInt), Lanes);
+  constexpr float whole = 12582912.0f; /* 1.5 * 2^23 */
+  return (x + whole) - whole;
+}
+
+/* The whole number below; 0 <= x < 2^31. */
+ICW_DEVICE Lanes lanes_floor(const Lanes x)
+{
+  return __builtin_convertvector(__builtin_convertvector(x, LanesInt), Lanes);
 }
 
 /* 2^x for -126 <= x <= 126: the whole part goes into the exponent, for the rest on [-1/2, 1/2]
@@ -188,6 +194,11 @@ ICW_DEVICE void store_lanes(const Lanes x, float *to)
 ICW_DEVICE Lanes lanes_round(const Lanes x)
 {
   return floorf(x + 0.5f);
+}
+
+ICW_DEVICE Lanes lanes_floor(const Lanes x)
+{
+  return floorf(x);
 }
 
 ICW_DEVICE Lanes lanes_exp2(const Lanes x)

@@ -21,14 +21,11 @@ inline ComplexIndex index_of(const int metal, const double wavelength_nm)
       Metal(metal), float(wavelength_nm), [](const int i) { return metal_table[i]; });
 }
 
-/* How much further than a rule is good for it is fitted: its spectra have harmonics. */
-constexpr double fitted_paths = 2.4;
-
 inline void append_rules(std::vector<float> &tables, const ColourTable &sensitivities)
 {
   for (int r = 0; r < rule_count; r++) {
     const SpectralRule rule = spectral_rule(
-        sensitivities, rule_nodes(r), fitted_paths * rule_path_nm(r));
+        sensitivities, rule_nodes(r), double(rule_fitted_paths * rule_path_nm(r)));
     tables.insert(tables.end(), rule.wavelength_nm.begin(), rule.wavelength_nm.end());
     for (const std::vector<double> &weight : rule.weight) {
       tables.insert(tables.end(), weight.begin(), weight.end());

@@ -86,17 +86,27 @@ ICW_DEVICE_LARGE Lanes order_sum(const Lanes x,
   return 0.39894228f * lanes_max(stride * sum + tip, lanes(0.0f));
 }
 
-/* The same where the orders are too close for any of them to be told from its neighbours in
- * wavelength, x far from 0: by Poisson's formula their mean density and, as far as `ripples` says,
- * cos(2 pi f x), cos(2 pi (1 - f) x). The mean of 1 / m^2 under the Gaussian is
- * (1 + 3 r^2 + 15 r^4 + ...) / x^2, r = w_0 / x; the spread of the spacing does not change it.
- * That of cos(2 pi f m) / m^2 is taken at the saddle x + i delta, delta = 2 pi f w_0^2, and the
- * spread damps it. */
-ICW_DEVICE Lanes order_density(const Lanes x,
-                               const Lanes w_0,
-                               const float duty,
-                               const float variation,
-                               const int ripples)
+/* Ripples of the density of orders by their turns for each order: f, 1 - f, 1, 1 + f, 2 - f, 2,
+ * ...; the slower a ripple, the more of it is seen. `duty` is at most 1/2. */
+constexpr int ripple_limit = 8;
+
+ICW_DEVICE float ripple_turns(const int ripple, const float duty)
+{
+  const float sides[3] = {duty, -duty, 0.0f};
+  return float((ripple + 2) / 3) + sides[ripple % 3];
+}
+
+/* The same by Poisson's formula, for x far from 0: the mean density of orders and the first
+ * `ripples` of its ripples. A(m)^2 = (1 - cos(2 pi f m)) / (2 pi^2 m^2), so those of a whole
+ * number of turns n are 2 cos(2 pi n x), and those of n +- f turns are subtracted. The mean of 1 /
+ * m^2 under the Gaussian is (1 + 3 r^2 + 15 r^4 + ...) / x^2, r = w_0 / x; the spread of the
+ * spacing does not change it. That of cos(2 pi t m) / m^2 is taken at the saddle x + i delta,
+ * delta = 2 pi t w_0^2, and the spread damps it. */
+ICW_DEVICE_LARGE Lanes order_density(const Lanes x,
+                                     const Lanes w_0,
+                                     const float duty,
+                                     const float variation,
+                                     const int ripples)
 {
   const float f = duty < 0.5f ? duty : 1.0f - duty;
   const Lanes per_x = 1.0f / x;
@@ -106,12 +116,13 @@ ICW_DEVICE Lanes order_density(const Lanes x,
   const Lanes w = lanes_sqrt(w_0 * w_0 + spread * spread);
   Lanes sum = lanes(1.0f);
   for (int k = 0; k < ripples; k++) {
-    const float turns = k == 0 ? f : 1.0f - f;
+    const float turns = ripple_turns(k, f);
     const Lanes t = two_pi * turns * w_0 * r;
     const Lanes damping = 1.0f / (1.0f + t * t);
     Lanes sine, cosine;
     lanes_sincos_turns(turns * x, sine, cosine);
-    sum -= lanes_bell(two_pi * turns * w) * damping * damping *
+    const float weight = k % 3 == 2 ? 2.0f : -1.0f;
+    sum += weight * lanes_bell(two_pi * turns * w) * damping * damping *
            ((1.0f - t * t) * cosine + 2.0f * t * sine);
   }
   return mean * sum;

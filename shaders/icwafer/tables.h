@@ -25,7 +25,10 @@ constexpr int rule_tables_offset = metal_tables_offset + 2 * visible_count * met
 /* Rules integrate a spectrum with the sensitivities under a lamp from few wavelengths, whole
  * vectors of them, within 0.5 % as long as the spectrum is a film's whose light goes no further
  * than this, there and back. */
-constexpr int rule_count = 3;
+/* How many times as far a spectrum may have more than a film's: rules are fitted so far, because a
+ * film's has harmonics. */
+constexpr float rule_fitted_paths = 2.4f;
+constexpr int rule_count = 5;
 constexpr int rule_rows = 4 + 2 * metal_tabulated_count;
 
 ICW_DEVICE constexpr int rule_nodes(const int rule)
@@ -35,7 +38,8 @@ ICW_DEVICE constexpr int rule_nodes(const int rule)
 
 ICW_DEVICE constexpr float rule_path_nm(const int rule)
 {
-  return rule == 0 ? 900.0f : rule == 1 ? 2500.0f : 4500.0f;
+  constexpr float path_nm[rule_count] = {900.0f, 2500.0f, 4500.0f, 6500.0f, 8500.0f};
+  return path_nm[rule];
 }
 
 /* Nodes of the rules before this one. */
@@ -44,7 +48,7 @@ ICW_DEVICE constexpr int rule_first_node(const int rule)
   return 4 * rule * (rule + 1);
 }
 
-constexpr int rules_size = rule_rows * (8 + 16 + 24);
+constexpr int rules_size = rule_rows * rule_first_node(rule_count);
 constexpr int material_tables_size = rule_tables_offset + illuminant_count * rules_size;
 
 ICW_DEVICE constexpr int metal_index(const Metal metal, const int cell)

@@ -20,7 +20,7 @@ class SpectralRules : public testing::TestWithParam<std::tuple<WorkingSpace, int
   {
     return spectral_rule(table,
                          rule_nodes(number),
-                         material_tables_detail::fitted_paths * rule_path_nm(number));
+                         rule_fitted_paths * rule_path_nm(number));
   }
 };
 
