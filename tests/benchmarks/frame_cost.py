@@ -6,8 +6,8 @@
 Two kinds of frame: a plane under a sky and an area lamp, which the material fills, and the wafer in
 its studio, whose blocks drive the node by attributes: against a plain Principled BSDF, and against
 one whose roughness reads the same attributes. All materials in one run, the best of three rounds.
-A frame of the wafer begins with its meshes, for every material alike: kept from frame to frame, they
-would be made again only where a material reads other attributes than the one before.
+A frame of the wafer begins with its meshes, for every material alike: kept from frame to frame,
+they would be made again only where a material reads other attributes than the one before.
 """
 
 from __future__ import annotations

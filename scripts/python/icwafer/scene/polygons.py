@@ -61,8 +61,8 @@ def add_attribute(
 def add_face_attributes(mesh: bpy.types.Mesh, values: Mapping[str, np.ndarray]) -> None:
     """Gives the faces attributes: (n,) each, by name.
 
-    What is 0 on all faces becomes none: it reads as 0 without, and Cycles fetches attributes face by
-    face before it renders.
+    What is 0 on all faces becomes none: it reads as 0 without, and Cycles fetches attributes face
+    by face before it renders.
     """
     for name, of_faces in values.items():
         if of_faces.any():
