@@ -189,7 +189,7 @@ def page_text() -> str:
         physical="\n".join([_floats("PHYSICAL"), others["menus"]]),
         cs348b="\n".join([_floats("CS348B"), others["effects"]]),
         faces="\n".join(_row(a.name, a.unit, a.meaning, a.socket) for a in OF_FACES),
-        instances="\n".join(_row(a.name, a.meaning, a.socket) for a in OF_INSTANCES),
+        instances="\n".join(_row(a.name, a.meaning) for a in OF_INSTANCES),
     )
 
 

@@ -13,7 +13,8 @@ namespace physical_detail {
 
 /* Orders +-m of one axis in groups, wider and wider (1, 2, 3-4, 5-7, 8-11, ...): the middle of
  * each and how far it reaches on either side, and U^2 for one side of the axis. */
-constexpr int group_limit = 9;
+constexpr int group_limit = 7;
+constexpr int grouped_orders = 24;
 
 struct OrderGroups {
   int count;
@@ -31,28 +32,29 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open, con
   if (!(lattice.spacing_nm > 0.0f)) {
     return groups;
   }
-  /* A(m)^2 = (1 - cos(2 pi m f)) / (2 pi^2 m^2); the cosines by Chebyshev's recurrence. */
-  const float cosine_1 = cosf(two_pi * lattice.duty);
-  float cosine = cosine_1, before = 1.0f;
-  float left = lattice.duty * (1.0f - lattice.duty);
   const float horizon = farthest * lattice.spacing_nm / first_nm;
+  /* The last group within the horizon may reach beyond it. */
+  float power[grouped_orders];
+  for (int k = 0; k < grouped_orders && float(k) < 1.4f * horizon; k += lane_count) {
+    const Lanes amplitude = open *
+                            order_amplitude(float(k + 1) + lane_numbers(), lanes(lattice.duty));
+    store_lanes(amplitude * amplitude, power + k);
+  }
+  float left = square(open) * lattice.duty * (1.0f - lattice.duty);
   int first = 1;
   for (; groups.count < group_limit && float(first) <= horizon; groups.count++) {
     const int last = first + (2 * first) / 5;
     float weight = 0.0f;
     for (int m = first; m <= last; m++) {
-      weight += (1.0f - cosine) / (2.0f * square(pi * float(m)));
-      const float next = 2.0f * cosine_1 * cosine - before;
-      before = cosine;
-      cosine = next;
+      weight += power[m - 1];
     }
     groups.order[groups.count] = 0.5f * float(first + last);
     groups.reach[groups.count] = 0.5f * float(last - first);
-    groups.weight[groups.count] = square(open) * larger(weight, 0.0f);
+    groups.weight[groups.count] = weight;
     left -= 2.0f * weight;
     first = last + 1;
   }
-  groups.rest = float(first) <= horizon ? square(open) * larger(left, 0.0f) : 0.0f;
+  groups.rest = float(first) <= horizon ? larger(left, 0.0f) : 0.0f;
   return groups;
 }
 

@@ -22,12 +22,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "python
 
 import bpy  # noqa: E402
 
+from icwafer.attributes import DRIFT  # noqa: E402
 from icwafer.chips.document import read_layout, write_layout  # noqa: E402
 from icwafer.chips.presets import PRESETS  # noqa: E402
 from icwafer.pictures import Camera, Light, Render  # noqa: E402
 from icwafer.scene.camera import camera_object  # noqa: E402
 from icwafer.scene.lamps import lamp  # noqa: E402
-from icwafer.scene.material import DRIFTS  # noqa: E402
 from icwafer.scene.parts import parts  # noqa: E402
 from icwafer.scene.picture import empty_scene  # noqa: E402
 from icwafer.scene.render import set_render  # noqa: E402
@@ -62,8 +62,7 @@ def dies_as_objects(wafer: bpy.types.Object) -> None:
             child = bpy.data.objects.new("Die", dies[point.value - 1].data)
             child.location = wafer.data.vertices[index].co
             child.parent = wafer
-            for name in DRIFTS.values():
-                child[name] = points[name].data[index].value
+            child[DRIFT.name] = points[DRIFT.name].data[index].vector
             bpy.context.scene.collection.objects.link(child)
     wafer.modifiers.clear()
 

@@ -17,6 +17,7 @@ PACKAGE = ROOT / "scripts" / "python"
 BLENDER = Path(os.environ.get("ICWAFER_BLENDER", ROOT / "build" / "install" / "blender"))
 sys.path.insert(0, str(PACKAGE))
 
+from icwafer.attributes import OF_FACES  # noqa: E402
 from icwafer.chips.die import generate  # noqa: E402
 from icwafer.chips.model import MM  # noqa: E402
 from icwafer.pictures import PICTURES  # noqa: E402
@@ -39,8 +40,7 @@ np.savez(
     normal=read(mesh.polygons, "normal", 3),
     area=read(mesh.polygons, "area"),
     center=read(mesh.polygons, "center", 3),
-    **{name: read(mesh.attributes[name].data, "value")
-       for name in SOCKET_OF_ATTRIBUTE},
+    **{a.name: read(a.data, "value") for a in mesh.attributes if a.name in SOCKET_OF_ATTRIBUTE},
 )
 """
 
@@ -76,8 +76,17 @@ class DieMesh(unittest.TestCase):
         self.assertGreater(np.median(share), 0.8)
 
     def test_wires_are_those_of_the_block(self) -> None:
-        for name in ("spacing_nm", "width_nm", "oxide_nm", "direction_rad", "diffraction"):
-            np.testing.assert_array_equal(self.mesh[f"ic_{name}"][:, 0], getattr(self.die, name))
+        """What a mesh has no attribute for reads as 0."""
+        none = np.zeros((len(self.die), 1))
+        for attribute in OF_FACES:
+            found = self.mesh.get(attribute.name, none)[:, 0]
+            values = getattr(self.die, attribute.name.removeprefix("ic_"))
+            np.testing.assert_array_equal(found, values, attribute.name)
+
+    def test_no_attribute_is_0_everywhere(self) -> None:
+        carried = [self.mesh[a.name] for a in OF_FACES if a.name in self.mesh]
+        self.assertTrue(0 < len(carried) < len(OF_FACES))  # this die has no wires across
+        self.assertTrue(all(values.any() for values in carried))
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ class Attribute:
     """A named quantity of each face, or of each instance: of each die on a wafer.
 
     unit: "nm", "radian", or empty for a number without one. socket: the node's input that it
-    drives; of an instance, what it changes by that share.
+    drives; empty where it changes several.
     """
 
     name: str
@@ -51,9 +51,15 @@ OF_FACES = (
     _of_group("groove_nm", "Groove Depth"),
 )
 
+#: What of a die drifts over a wafer: the components of `DRIFT`, in their order.
+DRIFTING = ("oxide", "groove", "width")
+
 #: Of each die on a wafer, as an attribute of the instance: a value is to be taken 1 + drift times.
-OF_INSTANCES = (
-    Attribute("ic_oxide_drift", "", "how much thicker the oxide is at this place", "oxide"),
-    Attribute("ic_groove_drift", "", "how much deeper the grooves are at this place", "groove"),
-    Attribute("ic_width_drift", "", "how much wider the wires are at this place", "width"),
+#: A vector, and no number for each, because every attribute that a material reads takes time.
+DRIFT = Attribute(
+    "ic_drift",
+    "",
+    "how much thicker the oxide (x), deeper the grooves (y) and wider the wires (z) are here",
+    "",
 )
+OF_INSTANCES = (DRIFT,)

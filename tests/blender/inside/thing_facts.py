@@ -7,10 +7,12 @@ import bpy
 import numpy as np
 
 
-def values_of(attribute: bpy.types.Attribute) -> list[float]:
-    values = np.empty(len(attribute.data), dtype=np.float32)
-    attribute.data.foreach_get("value", values)
-    return [float(values.min()), float(values.max()), float(values.astype(np.float64).sum())]
+def values_of(attribute: bpy.types.Attribute) -> list[float | list[float]]:
+    """The least and the greatest value, and their sum; of a vector those of each component."""
+    vector = attribute.data_type == "FLOAT_VECTOR"
+    values = np.empty((len(attribute.data), 3) if vector else len(attribute.data), np.float32)
+    attribute.data.foreach_get("vector" if vector else "value", values.ravel())
+    return [values.min(0).tolist(), values.max(0).tolist(), values.sum(0, np.float64).tolist()]
 
 
 def instances_of(thing: bpy.types.Object) -> int:
@@ -55,6 +57,6 @@ def thing_facts(thing: bpy.types.Object) -> dict[str, object]:
         "attributes": {
             attribute.name: values_of(attribute)
             for attribute in thing.data.attributes
-            if attribute.name.startswith("ic_") and attribute.data_type == "FLOAT"
+            if attribute.name.startswith("ic_") and attribute.data_type.startswith("FLOAT")
         },
     }

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import bpy
 
-from icwafer.attributes import OF_INSTANCES
+from icwafer.attributes import DRIFT, DRIFTING
 from icwafer.errors import IcwaferError
 from icwafer.pictures import Irregular, NodeValue
 from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
@@ -15,10 +15,8 @@ from icwafer.scene.properties import assign
 
 NODE = "ShaderNodeBsdfICWafer"
 
-#: The attributes of instances on a wafer by what they change, and what each attribute of a block
-#: changes with: value x (1 + drift).
-DRIFTS = {attribute.socket: attribute.name for attribute in OF_INSTANCES}
-DRIFTING = {
+#: What each attribute of a block changes with on a wafer: value x (1 + drift).
+DRIFT_OF_ATTRIBUTE = {
     "ic_oxide_nm": "oxide",
     "ic_groove_nm": "groove",
     "ic_width_nm": "width",
@@ -87,18 +85,16 @@ def chip_material(
     tree.links.new(rest.outputs["BSDF"], mix.inputs[1])
     tree.links.new(wafer.outputs["BSDF"], mix.inputs[2])
     tree.links.new(mix.outputs["Shader"], output.inputs["Surface"])
-    drifts = {
-        quantity: _drift_factor(tree, attribute, (-700, -250 * row))
-        for row, (quantity, attribute) in enumerate(DRIFTS.items())
-    }
+    # All of it is 0 where a die does not stand on a wafer.
+    drifts = tree.nodes.new("ShaderNodeSeparateXYZ")
+    drifts.location = (-500, 200)
+    instance = _attribute(tree, DRIFT.name, (-700, 200), "INSTANCER")
+    tree.links.new(instance.outputs["Vector"], drifts.inputs["Vector"])
     for row, (attribute, socket) in enumerate(SOCKET_OF_ATTRIBUTE.items()):
         value = _attribute(tree, attribute, (-500, -200 * row)).outputs["Fac"]
-        quantity = DRIFTING.get(attribute)
-        if quantity:
-            scaled = _math(tree, "MULTIPLY", (-250, -200 * row))
-            tree.links.new(value, scaled.inputs[0])
-            tree.links.new(drifts[quantity], scaled.inputs[1])
-            value = scaled.outputs[0]
+        if attribute in DRIFT_OF_ATTRIBUTE:
+            drift = drifts.outputs[DRIFTING.index(DRIFT_OF_ATTRIBUTE[attribute])]
+            value = _drifted(tree, value, drift, (-250, -200 * row))
         tree.links.new(
             value, mix.inputs["Fac"] if socket == "Diffraction" else wafer.inputs[socket]
         )
@@ -114,21 +110,18 @@ def _attribute(
     return node
 
 
-def _math(tree: bpy.types.NodeTree, operation: str, place: tuple[float, float]) -> bpy.types.Node:
-    node = tree.nodes.new("ShaderNodeMath")
-    node.operation, node.location = operation, place
-    return node
-
-
-def _drift_factor(
-    tree: bpy.types.NodeTree, attribute: str, place: tuple[float, float]
+def _drifted(
+    tree: bpy.types.NodeTree,
+    value: bpy.types.NodeSocket,
+    drift: bpy.types.NodeSocket,
+    place: tuple[float, float],
 ) -> bpy.types.NodeSocket:
-    """1 + the drift of the instance, which is 0 where a die does not stand on a wafer."""
-    drift = _attribute(tree, attribute, (place[0] - 200, place[1]), "INSTANCER")
-    one_more = _math(tree, "ADD", place)
-    one_more.inputs[1].default_value = 1.0
-    tree.links.new(drift.outputs["Fac"], one_more.inputs[0])
-    return one_more.outputs[0]
+    """value x (1 + drift), in one node."""
+    node = tree.nodes.new("ShaderNodeMath")
+    node.operation, node.location = "MULTIPLY_ADD", place
+    for operand, socket in zip((value, drift, value), node.inputs):
+        tree.links.new(operand, socket)
+    return node.outputs[0]
 
 
 def set_node(

@@ -9,11 +9,11 @@ import numpy as np
 from icwafer.attributes import OF_FACES
 from icwafer.chips.clip import Pieces
 from icwafer.chips.model import MM, UM, Die
-from icwafer.scene.polygons import add_attribute, polygon_mesh
+from icwafer.scene.polygons import add_face_attributes, polygon_mesh
 
 GAP_NM = 8 * UM  # the dark line between two blocks: one pixel in a picture of a whole die
 
-#: The face attributes that a die's mesh carries, and the sockets that each one drives.
+#: The face attributes that a die's mesh may carry, and the sockets that each one drives.
 SOCKET_OF_ATTRIBUTE = {attribute.name: attribute.socket for attribute in OF_FACES}
 
 #: How far below the blocks the ground between them lies, and the wafer below that: enough to tell
@@ -64,10 +64,12 @@ def die_mesh(
     )
     if ground:
         mesh.polygons[-1].material_index = 1
-    for name in SOCKET_OF_ATTRIBUTE:
-        values = getattr(die, name.removeprefix("ic_"))[block]
-        # The ground has no wires.
-        add_attribute(mesh, name, "FACE", np.r_[values, np.zeros(len(grounds), np.float32)])
+    # The ground has no wires.
+    of_ground = np.zeros(len(grounds), np.float32)
+    columns = {name: getattr(die, name.removeprefix("ic_")) for name in SOCKET_OF_ATTRIBUTE}
+    add_face_attributes(
+        mesh, {name: np.r_[values[block], of_ground] for name, values in columns.items()}
+    )
     return mesh
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import bpy
 import numpy as np
@@ -50,5 +50,20 @@ def at_height(polygons: Sequence[np.ndarray], z_mm: float) -> np.ndarray:
 def add_attribute(
     mesh: bpy.types.Mesh, name: str, domain: str, values: np.ndarray, kind: str = "FLOAT"
 ) -> None:
-    """Gives each face or point (`domain` FACE or POINT) its value; kind is FLOAT or INT."""
-    mesh.attributes.new(name, kind, domain).data.foreach_set("value", values)
+    """Gives each face or point (`domain` FACE or POINT) its value.
+
+    kind: FLOAT or INT; or FLOAT_VECTOR, for values (n, 3).
+    """
+    key = "vector" if kind == "FLOAT_VECTOR" else "value"
+    mesh.attributes.new(name, kind, domain).data.foreach_set(key, values.ravel())
+
+
+def add_face_attributes(mesh: bpy.types.Mesh, values: Mapping[str, np.ndarray]) -> None:
+    """Gives the faces attributes: (n,) each, by name.
+
+    What is 0 on all faces becomes none: it reads as 0 without, and Cycles fetches attributes face
+    by face before it renders.
+    """
+    for name, of_faces in values.items():
+        if of_faces.any():
+            add_attribute(mesh, name, "FACE", of_faces)

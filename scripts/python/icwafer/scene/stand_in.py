@@ -14,7 +14,7 @@ from icwafer.chips.outline import edge_profile_mm, outline_mm
 from icwafer.chips.wafer import Wafer
 from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
 from icwafer.scene.parts import Parts
-from icwafer.scene.polygons import add_attribute, at_height, loose_faces, polygon_mesh
+from icwafer.scene.polygons import add_face_attributes, at_height, loose_faces, polygon_mesh
 
 #: How far disc and plates are in front of the dies, in shares of the diameter: enough for the depth
 #: buffer of a view of the whole wafer.
@@ -44,11 +44,13 @@ def stand_in(
     mesh.polygons.foreach_set("material_index", is_plate.astype(np.int32))
     for material in (parts.silicon, parts.blocks):
         mesh.materials.append(material)
-    for attribute in SOCKET_OF_ATTRIBUTE:
+    means = {}
+    for attribute in [name for name in SOCKET_OF_ATTRIBUTE if name in die.attributes]:
         values = np.empty(len(die.polygons), dtype=np.float32)
         die.attributes[attribute].data.foreach_get("value", values)
         # The last face is the ground, which has no wires.
-        add_attribute(mesh, attribute, "FACE", np.where(is_plate, values[:-1].mean(), 0.0))
+        means[attribute] = np.where(is_plate, values[:-1].mean(), 0.0)
+    add_face_attributes(mesh, means)
     thing = bpy.data.objects.new(name, mesh)
     thing.hide_render = True
     for ray in _RAYS:

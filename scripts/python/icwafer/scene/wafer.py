@@ -4,9 +4,9 @@
 The object's mesh is the disc of silicon and a loose point where each die stands; a geometry-nodes
 modifier puts the dies on the points. The points carry `ic_die` (1 for the first kind of die, 0 for
 the disc's own points, a negative number for what only viewports show) and the drift of the place,
-`ic_oxide_drift` and so on, which the material reads from the instance (Attribute node, type
-Instancer). Of what can carry such attributes, an object for each die takes several times as long to
-the first sample, and is hundreds of things to move (tests/benchmarks/wafer_scale.py).
+`ic_drift`, which the material reads from the instance (Attribute node, type Instancer). Of what can
+carry such attributes, an object for each die takes several times as long to the first sample, and
+is hundreds of things to move (tests/benchmarks/wafer_scale.py).
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from collections.abc import Generator, Sequence
 import bpy
 import numpy as np
 
+from icwafer.attributes import DRIFT, DRIFTING
 from icwafer.chips.clip import Pieces, cut_to_usable
 from icwafer.chips.die import generate
 from icwafer.chips.model import Die, Layout
@@ -23,7 +24,6 @@ from icwafer.chips.outline import edge_profile_mm, outline_mm
 from icwafer.chips.placement import WaferMap, blank_fields_mm, place_dies
 from icwafer.chips.wafer import Wafer
 from icwafer.errors import IcwaferError
-from icwafer.scene.material import DRIFTS
 from icwafer.scene.mesh import GAP_NM, STEP_MM, block_faces_mm, die_mesh
 from icwafer.scene.parts import Parts
 from icwafer.scene.polygons import add_attribute, at_height, loose_faces, polygon_mesh
@@ -191,15 +191,16 @@ def _disc_mesh(
         ),
     )
 
-    def on_points(of_dies: np.ndarray, of_stand_in: float = 0.0) -> np.ndarray:
-        of_others = np.zeros(disc + len(patch_points))
-        return np.r_[of_others, of_dies[stands], np.full(len(stand_in_point), of_stand_in)]
-
-    number = on_points(kind_of + 1, -(kind_of.max(initial=-1) + 2))
-    add_attribute(mesh, "ic_die", "POINT", number.astype(np.int32), "INT")
-    for quantity, attribute in DRIFTS.items():
-        drift = getattr(places, f"{quantity}_scale").astype(np.float64) - 1.0
-        add_attribute(mesh, attribute, "POINT", on_points(drift))
+    first_die = disc + len(patch_points)
+    of_dies = slice(first_die, first_die + len(stands))
+    number = np.zeros(len(mesh.vertices), dtype=np.int32)
+    number[of_dies] = kind_of[stands] + 1
+    number[of_dies.stop :] = -(kind_of.max(initial=-1) + 2)
+    add_attribute(mesh, "ic_die", "POINT", number, "INT")
+    drift = np.zeros((len(mesh.vertices), len(DRIFTING)), dtype=np.float32)
+    for component, quantity in enumerate(DRIFTING):
+        drift[of_dies, component] = getattr(places, f"{quantity}_scale")[stands] - 1.0
+    add_attribute(mesh, DRIFT.name, "POINT", drift, "FLOAT_VECTOR")
     return mesh
 
 

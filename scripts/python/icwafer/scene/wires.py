@@ -7,9 +7,7 @@ import bpy
 import numpy as np
 
 from icwafer.portrait.wires import Wires
-from icwafer.scene.mesh import SOCKET_OF_ATTRIBUTE
-from icwafer.scene.polygons import add_attribute, polygon_mesh
-
+from icwafer.scene.polygons import add_face_attributes, polygon_mesh
 
 #: Of more wires nobody sees the sides: a picture is some 2000 pixels wide.
 MOST_SIDES = 600_000
@@ -34,8 +32,12 @@ def wires_mesh(wires: Wires) -> bpy.types.Mesh:
     mesh = polygon_mesh("Wires", rings.reshape(-1, 3) / 1000, polygons)
     is_side = np.arange(len(mesh.polygons)) >= count
     mesh.polygons.foreach_set("material_index", is_side.astype(np.int32))
-    for name in SOCKET_OF_ATTRIBUTE:
-        values = np.zeros(len(is_side), dtype=np.float32)
-        values[:count] = wires.attributes.get(name.removeprefix("ic_"), 0.0)
-        add_attribute(mesh, name, "FACE", values)
+    of_sides = np.zeros(len(is_side) - count, dtype=np.float32)
+    add_face_attributes(
+        mesh,
+        {
+            f"ic_{name}": np.r_[of_tops.astype(np.float32), of_sides]
+            for name, of_tops in wires.attributes.items()
+        },
+    )
     return mesh
