@@ -50,18 +50,4 @@ ICW_DEVICE float illuminant_blur_per_nm(const Illuminant illuminant)
   return per_nm[illuminant];
 }
 
-/* One of the two humps that the sum of the sensitivities under a lamp has, for sampling: blue;
- * green and red. The lines of fluorescent lamps are taken together; sodium has one line only. */
-struct IlluminantHump {
-  float mean_nm, sigma_nm, weight;
-};
-
-ICW_DEVICE IlluminantHump illuminant_hump(const Illuminant illuminant, const int hump)
-{
-  if (illuminant == illuminant_sodium) {
-    return {sodium_mean_nm, 3.0f, 0.5f};
-  }
-  return hump == 0 ? IlluminantHump{458.0f, 22.0f, 0.32f} : IlluminantHump{572.0f, 42.0f, 0.68f};
-}
-
 }  // namespace icwafer

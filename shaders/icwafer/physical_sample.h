@@ -4,18 +4,27 @@
  * under the lamp, then the place within the lobe.
  *
  * Because du dv = cos theta d omega, directions are sampled as points of the unit disc. The
- * density of (u, v) is a mixture of the mirror order, of the orders of each axis, each over the
- * two humps that the sum of the three sensitivities has (blue; green and red), and of a tail for
- * orders too many to tell apart, which falls off as their power does,
+ * density of (u, v) is a mixture of the mirror order, of the orders of each axis, and of a tail for
+ * orders too many to tell apart, which falls off about as their power does,
  *
- *   1 / (1 + (m / m_1)^2),  m_1 = 1 / (sqrt(2) pi f).
+ *   1 / (m + m_1)^2.
  *
- * With crossing wires an order (m, n) has its u and its v from one wavelength: u is drawn first,
- * and the v of order n follows from the wavelength that u is of in order m.
+ * Lobes are logistic densities, close to Gaussians but with heavier tails. The spectrum of an
+ * order consists of bands in which it is even (tables.h), each as bright as the sensitivities and
+ * the film in its middle make it. An even band from a to b under a logistic density of scale s is
  *
- * Lobes are logistic densities, close to Gaussians but with heavier tails. A point outside the
- * disc is no direction: a sample that finds none, as in other closures. Evaluation and sampling
- * use this one density. */
+ *   (L((u - a) / s) - L((u - b) / s)) / (b - a),  L(x) = 1 / (1 + exp(-x))
+ *
+ * and the point below which the part t / D of it lies, D = (b - a) / s, is
+ *
+ *   a + s (t + log((1 - exp(-t)) / (1 - exp(t - D)))).
+ *
+ * The order and its u tell the wavelength, which gives the width of v. With crossing wires an order
+ * (m, n) has its u and its v from one wavelength, too: u is drawn first.
+ *
+ * Orders and bands follow each other as their places do, so that samples whose random numbers are
+ * spread evenly spread evenly over colours. A point outside the disc is no direction: a sample that
+ * finds none, as in other closures. Evaluation and sampling use this one density. */
 
 #pragma once
 
@@ -23,11 +32,23 @@
 
 namespace icwafer {
 
+namespace physical_detail {
+
+/* Axes and sides of the directions: of the lattice across and of that along, 1 the positive. */
+constexpr int axis_across = 0, axis_along = 1;
+
+}  // namespace physical_detail
+
 /* What depends on the parameters and the view only. */
 struct PhysicalView {
-  /* Squared difference of the amplitudes at the humps: in the mirror direction, and for the first
-   * order on either side. */
-  float mirror_contrast[2], contrast[2][2];
+  /* Edges of the spectrum's bands, and by how much the density of light over wavelength rises at
+   * each, but for A(m)^2: on the negative and on the positive side. */
+  float edge_nm[band_edge_count], rise[2][band_edge_count];
+  /* For each axis and side, how far there are directions, and the last order that is told apart
+   * there. */
+  float open[2][2], last_order[2][2];
+  /* Power of the orders beyond on one side of each axis, spread over their tail. */
+  float tail_power[2];
   /* Power of the mirror order and of all orders together: an estimate of the reflectance. */
   float mirror_power, total_power;
 };
@@ -37,20 +58,38 @@ namespace physical_detail {
 /* Orders that are told apart on either side; beyond them the colours overlap. */
 constexpr int order_limit = 6;
 constexpr float shortest_nm = 400.0f;
-constexpr float mean_nm = 550.0f;
+constexpr float mean_nm = 550.0f, spectrum_sigma_nm = 60.0f;
 /* Where the tail begins, in orders: the blue of the first order beyond the limit. */
 constexpr float tail_begin = 5.0f;
 /* A tail that ends before this is left out. */
 constexpr float tail_least = 6.5f;
+/* How much of the light behind the horizon is sampled. */
+constexpr float hidden_part = 0.05f;
+/* Of each order some is always sampled: what is dark at the nodes need not be so between. And all
+ * of them less than they reflect, for the mirror order is where a lamp makes most noise. Noise of
+ * frames under a lamp and a sky was found to be least with these two. */
+constexpr float between_nodes = 0.3f, order_part = 0.63f;
 /* Fits a Gaussian's body best. */
 constexpr float logistic_per_sigma = 0.59f;
+/* Where the density is left out, at 1e-6 of its middle, and the part of it that lies beyond. */
+constexpr float logistic_reach = 8.0f, logistic_beyond = 1.5e-6f;
+/* How much wider than at the mean wavelength the lobe of the longest is, at most. */
+constexpr float longest_width = 1.35f;
 
-ICW_DEVICE Lanes logistic_lobes(const Lanes x, const Lanes scale)
+/* L(x). */
+ICW_DEVICE Lanes logistic_part(const Lanes x)
 {
-  const Lanes t = x / scale;
+  const Lanes exponent = -1.44269504f * x;
+  return 1.0f / (1.0f + lanes_exp2(lanes_max(lanes_min(exponent, lanes(60.0f)), lanes(-60.0f))));
+}
+
+ICW_DEVICE Lanes logistic_lobes(const Lanes x, const Lanes sigma)
+{
+  const Lanes per_scale = 1.0f / (logistic_per_sigma * sigma);
+  const Lanes t = x * per_scale;
   const Lanes e = lanes_exp2(lanes_max(-1.44269504f * lanes_max(t, -t), lanes(-60.0f)));
   const Lanes sum = 1.0f + e;
-  return e / (sum * sum * scale);
+  return e * per_scale / (sum * sum);
 }
 
 ICW_DEVICE float logistic_density(const float x, const float sigma)
@@ -63,189 +102,266 @@ ICW_DEVICE float logistic_density(const float x, const float sigma)
 /* The point below which the part `part` of a logistic density lies. */
 ICW_DEVICE float logistic_point(const float part, const float sigma)
 {
-  const float inside = clamped(part, 1e-7f, 1.0f - 1e-6f);
+  const float inside = clamped(part, logistic_beyond, 1.0f - logistic_beyond);
   return logistic_per_sigma * sigma * logf(inside / (1.0f - inside));
 }
 
-/* The orders of one lattice other than 0, seen along one axis. */
-struct Comb {
-  Lattice lattice;
-  /* Orders told apart on the negative and on the positive side. */
-  int negative, positive;
-  /* Where the tails end, in orders of the mean wavelength; tail_begin where there is none. */
-  float tail_negative, tail_positive;
-  /* Power of A^2 on one side beyond the limit. */
+/* One axis as the sampling sees it: its lattice, that across it, and what the view knows. */
+struct Axis {
+  const Lattice &lattice, &other;
+  const float *open, *last_order;
   float tail_power;
+  /* The parts that the spectra on either side have in that of the axis: across each has its own,
+   * along all have the mean. */
+  bool own_spectra;
 };
 
-/* `view` is the component of the view along the axis. */
-ICW_DEVICE Comb comb(const Lattice lattice, const float view)
+ICW_DEVICE Axis view_axis(const PhysicalParams &p, const PhysicalView &view, const int axis)
 {
-  Comb c = {lattice, 0, 0, tail_begin, tail_begin, 0.0f};
-  if (!(lattice.spacing_nm > 0.0f)) {
-    return c;
-  }
-  const float per_order = lattice.spacing_nm / shortest_nm;
-  c.negative = int(smaller((1.0f - view) * per_order, float(order_limit)));
-  c.positive = int(smaller((1.0f + view) * per_order, float(order_limit)));
-  c.tail_negative = larger((1.0f - view) * lattice.spacing_nm / mean_nm, tail_begin);
-  c.tail_positive = larger((1.0f + view) * lattice.spacing_nm / mean_nm, tail_begin);
-  if (larger(c.tail_negative, c.tail_positive) > tail_least) {
-    float power = 0.5f * lattice.duty * (1.0f - lattice.duty);
-    for (int m = 1; m <= order_limit; m++) {
-      power -= square(sinf(pi * float(m) * lattice.duty) / (pi * float(m)));
-    }
-    c.tail_power = larger(power, 0.0f);
-  }
-  return c;
+  const bool across = axis == axis_across;
+  return {across ? p.across : p.along,
+          across ? p.along : p.across,
+          view.open[axis],
+          view.last_order[axis],
+          view.tail_power[axis],
+          across};
 }
 
-ICW_DEVICE float tail_scale(const Comb &c)
+/* A(m)^2 of orders from `first`. */
+ICW_DEVICE Lanes order_powers(const Lattice &lattice, const Lanes m)
 {
-  const float duty = smaller(c.lattice.duty, 1.0f - c.lattice.duty);
-  return larger(0.2250791f / larger(duty, 1e-4f), tail_begin);
+  const Lanes amplitude = order_amplitude(m, lanes(lattice.duty));
+  return amplitude * amplitude;
 }
 
-/* Tails on the negative and the positive side; a side that ends before it begins has none. */
-ICW_DEVICE float tail_share(const Comb &c, const bool positive)
+/* ---- Tails ---- */
+
+ICW_DEVICE float tail_shift(const Lattice &lattice)
 {
-  return (positive ? c.tail_positive : c.tail_negative) > tail_least ? c.tail_power : 0.0f;
+  const float duty = smaller(lattice.duty, 1.0f - lattice.duty);
+  return 0.5f * larger(0.2250791f / larger(duty, 1e-4f), tail_begin);
 }
 
-ICW_DEVICE float tail_total(const Comb &c)
+/* Where the tail on a side ends, in orders of the mean wavelength. `view` is the component of the
+ * view along the axis. */
+ICW_DEVICE float tail_end(const Lattice &lattice, const float view, const int side)
 {
-  return tail_share(c, false) + tail_share(c, true);
+  return (side ? 1.0f + view : 1.0f - view) * lattice.spacing_nm / mean_nm;
+}
+
+/* A side that ends before it begins has none. */
+ICW_DEVICE float tail_share(const Axis &axis, const float view, const int side)
+{
+  return tail_end(axis.lattice, view, side) > tail_least ? axis.tail_power : 0.0f;
 }
 
 /* Density of the tails over q, times their power. */
-ICW_DEVICE float tail_density(const Comb &c, const float q)
+ICW_DEVICE float tail_density(const Axis &axis, const float view, const float q)
 {
-  const bool positive = q > 0.0f;
-  const float share = tail_share(c, positive);
-  const float order = fabsf(q) * c.lattice.spacing_nm / mean_nm;
-  const float end = positive ? c.tail_positive : c.tail_negative;
+  const int side = q > 0.0f;
+  const float share = tail_share(axis, view, side);
+  const float per_q = axis.lattice.spacing_nm / mean_nm;
+  const float order = fabsf(q) * per_q;
+  const float end = tail_end(axis.lattice, view, side);
   if (!(share > 0.0f) || order < tail_begin || order > end) {
     return 0.0f;
   }
-  const float scale = tail_scale(c);
-  const float span = scale * (atanf(end / scale) - atanf(tail_begin / scale));
-  return share * c.lattice.spacing_nm / (mean_nm * span * (1.0f + square(order / scale)));
+  const float shift = tail_shift(axis.lattice);
+  const float span = 1.0f / (tail_begin + shift) - 1.0f / (end + shift);
+  return share * per_q / (span * square(order + shift));
 }
 
-/* The q below which the part `part` of the tails lies. */
-ICW_DEVICE float tail_point(const Comb &c, const float part)
+/* The |q| below which the part `part` of the tail on a side lies. */
+ICW_DEVICE float tail_point(const Axis &axis, const float view, const int side, const float part)
 {
-  const float left = part * tail_total(c);
-  const bool positive = left >= tail_share(c, false);
-  const float share = tail_share(c, positive);
-  const float inside = clamped(
-      (positive ? left - tail_share(c, false) : left) / share, 0.0f, 1.0f);
-  const float end = positive ? c.tail_positive : c.tail_negative;
-  const float scale = tail_scale(c);
-  const float begin = atanf(tail_begin / scale);
-  const float order = scale * tanf(begin + inside * (atanf(end / scale) - begin));
-  return (positive ? order : -order) * mean_nm / c.lattice.spacing_nm;
+  const float shift = tail_shift(axis.lattice);
+  const float begin = 1.0f / (tail_begin + shift);
+  const float end = 1.0f / (tail_end(axis.lattice, view, side) + shift);
+  const float order = 1.0f / (begin + clamped(part, 0.0f, 1.0f) * (end - begin)) - shift;
+  return order * mean_nm / axis.lattice.spacing_nm;
 }
 
-/* Lobes of a comb, lane_count at a time, at the humps of the sensitivities. */
-struct Humps {
-  Lanes order, mean, scale, power;
+/* ---- The spectrum of an order ---- */
+
+ICW_DEVICE Lanes spectrum_rise(const PhysicalView &view,
+                               const bool own_spectra,
+                               const int side,
+                               const int edge)
+{
+  const Lanes own = load_lanes(view.rise[side] + edge);
+  return own_spectra ? own : 0.5f * (own + load_lanes(view.rise[1 - side] + edge));
+}
+
+/* Where the horizon is at open_nm, of the light beyond little is sampled, right behind it: for the
+ * lobes' edges that come back over it. */
+template<typename Real> ICW_DEVICE Real before_horizon(const Real nm, const float open_nm)
+{
+  const Real behind = (1.0f - hidden_part) * open_nm + hidden_part * nm;
+  return nm < behind ? nm : behind;
+}
+
+/* Power of an order but for A(m)^2, its light open up to open_nm. The integral over bands of
+ * rising density is the negative sum of the edges' rises times their places. */
+ICW_DEVICE float spectrum_power(const PhysicalView &view,
+                                const bool own_spectra,
+                                const int side,
+                                const float open_nm)
+{
+  Lanes sum = lanes(0.0f);
+  for (int edge = 0; edge < band_edge_count; edge += lane_count) {
+    sum -= spectrum_rise(view, own_spectra, side, edge) *
+           before_horizon(load_lanes(view.edge_nm + edge), open_nm);
+  }
+  return larger(lanes_sum(sum), 0.0f);
+}
+
+/* Power of each order of an axis on a side, up to the last that is told apart. */
+struct OrderPowers {
+  int count;
+  float power[order_limit];
+  float sum;
 };
 
-ICW_DEVICE int hump_count(const Comb &c)
+ICW_DEVICE OrderPowers side_powers(const PhysicalView &view,
+                                   const Axis &axis,
+                                   const float *amplitude_squared,
+                                   const int side)
 {
-  return 2 * (c.negative + c.positive);
-}
-
-/* `contrast[side][hump]`, side 1 for positive orders. */
-ICW_DEVICE_LARGE Humps humps(const PhysicalParams &p,
-                             const Comb &c,
-                             const float contrast[2][2],
-                             const int first)
-{
-  /* Lanes: order -1 at both humps, -2, ..., then 1, 2, ... */
-  float numbers[lane_count];
-  for (int lane = 0; lane < lane_count; lane++) {
-    numbers[lane] = float(first + lane);
+  OrderPowers powers;
+  powers.count = int(axis.last_order[side]);
+  powers.sum = 0.0f;
+  const float open_nm = axis.open[side] * axis.lattice.spacing_nm;
+  for (int k = 0; k < powers.count; k++) {
+    powers.power[k] = amplitude_squared[k] *
+                      spectrum_power(view, axis.own_spectra, side, open_nm / float(k + 1));
+    powers.sum += powers.power[k];
   }
-  const Lanes number = load_lanes(numbers);
-  const Lanes position = lanes_round(0.5f * number - 0.25f);
-  const Lanes second = number - 2.0f * position;
-  const float negative = float(c.negative);
-  const IlluminantHump blue = illuminant_hump(p.illuminant, 0),
-                       red = illuminant_hump(p.illuminant, 1);
-  const auto hump = [&](const float at_blue, const float at_red) {
-    return second > 0.5f ? lanes(at_red) : lanes(at_blue);
-  };
-
-  Humps lobes;
-  lobes.order = position < negative ? -1.0f - position : position - negative + 1.0f;
-  const Lanes nm = hump(blue.mean_nm, red.mean_nm);
-  const Lanes power = position < negative ?
-                          hump(blue.weight * contrast[0][0], red.weight * contrast[0][1]) :
-                          hump(blue.weight * contrast[1][0], red.weight * contrast[1][1]);
-  const Lanes per_nm = lobes.order / c.lattice.spacing_nm;
-  lobes.mean = nm * per_nm;
-  const Lanes spread_nm = hump(blue.sigma_nm, red.sigma_nm) * per_nm;
-  lobes.scale = logistic_per_sigma *
-                lanes_sqrt(lobe_variance(p, c.lattice, nm, lobes.mean) + spread_nm * spread_nm);
-  const Lanes amplitude = order_amplitude(lobes.order, lanes(c.lattice.duty));
-  lobes.power = number < float(hump_count(c)) ? power * amplitude * amplitude : lanes(0.0f);
-  return lobes;
+  return powers;
 }
 
-ICW_DEVICE float comb_power(const PhysicalParams &p, const Comb &c, const float contrast[2][2])
-{
-  float sum = 0.0f;
-  for (int first = 0; first < hump_count(c); first += lane_count) {
-    sum += lanes_sum(humps(p, c, contrast, first).power);
-  }
-  return sum;
-}
-
-/* Mean over sides and humps, for the tails. */
-ICW_DEVICE float mean_contrast(const float contrast[2][2])
-{
-  return 0.25f * (contrast[0][0] + contrast[0][1] + contrast[1][0] + contrast[1][1]);
-}
-
-/* All that evaluation and sampling of the density share for one view. */
-struct Mixture {
-  Comb across, along;
-  /* Both sides alike: for orders along the wires the mirror's. */
-  float along_contrast[2][2];
-  /* The part of the other axis that is open: the factor of an axis' own orders, and what the
-   * orders (m, n) of one m add up to. That of the wires along is divided by, so never 0. */
-  float open_across, open_along;
-  /* Standard deviations of the mirror lobe. */
-  float sigma_u, sigma_v;
+/* A(m)^2 of the orders 1, 2, ..., at least order_limit of them. */
+struct AmplitudesSquared {
+  float order[order_limit + lane_count];
 };
 
-ICW_DEVICE Mixture mixture(const PhysicalParams &p,
-                           const PhysicalView &view,
-                           const LocalDirection o)
+ICW_DEVICE AmplitudesSquared amplitudes_squared(const Lattice &lattice)
 {
-  Mixture x;
-  x.across = comb(p.across, o.nu);
-  x.along = comb(p.along, o.tau);
-  for (int hump = 0; hump < 2; hump++) {
-    x.along_contrast[0][hump] = view.mirror_contrast[hump];
-    x.along_contrast[1][hump] = view.mirror_contrast[hump];
+  AmplitudesSquared result;
+  for (int k = 0; k < order_limit; k += lane_count) {
+    store_lanes(order_powers(lattice, float(k + 1) + lane_numbers()), result.order + k);
   }
-  x.open_across = 1.0f - p.across.duty;
-  x.open_along = p.along.spacing_nm > 0.0f ? larger(1.0f - p.along.duty, 1e-6f) : 1.0f;
-  x.sigma_u = sqrtf(physical_lobe_variance(p, p.across));
-  x.sigma_v = sqrtf(physical_lobe_variance(p, p.along));
-  return x;
+  return result;
 }
 
-/* Standard deviation of v around order n, given the wavelength and how well u tells it. */
-ICW_DEVICE float row_sigma(const PhysicalParams &p,
-                           const float wavelength_nm,
-                           const float shift,
-                           const float relative)
+/* Density over q > 0 of light whose spectrum an order spreads by this much per nanometre. */
+ICW_DEVICE float spectrum_density(const PhysicalView &view,
+                                  const Axis &axis,
+                                  const int side,
+                                  const float q,
+                                  const float nm_per_q,
+                                  const float scale)
 {
-  return sqrtf(lobe_variance(p, p.along, wavelength_nm, shift) + square(relative * shift));
+  const float per_scale_nm = 1.0f / (scale * nm_per_q);
+  const float nm = q * nm_per_q, open_nm = axis.open[side] * nm_per_q;
+  Lanes sum = lanes(0.0f);
+  for (int edge = 0; edge < band_edge_count; edge += lane_count) {
+    const Lanes edge_nm = before_horizon(load_lanes(view.edge_nm + edge), open_nm);
+    sum += spectrum_rise(view, axis.own_spectra, side, edge) *
+           logistic_part((nm - edge_nm) * per_scale_nm);
+  }
+  return larger(lanes_sum(sum), 0.0f) * nm_per_q;
+}
+
+/* The part of a band of width D, in scales, and of what is beyond: see above. */
+ICW_DEVICE float one_minus_exp(const float x)
+{
+  return x < 0.01f ? x * (1.0f - 0.5f * x) : 1.0f - expf(-x);
+}
+
+ICW_DEVICE float band_point(const float begin,
+                            const float end,
+                            const float part,
+                            const float scale)
+{
+  const float inside = clamped(part, 1e-6f, 1.0f - 1e-6f);
+  const float width = (end - begin) / scale;
+  const float t = inside * width;
+  const float point = begin +
+                      scale * (t + logf(one_minus_exp(t) / one_minus_exp((1.0f - inside) * width)));
+  const float reach = 0.98f * logistic_reach / logistic_per_sigma * scale;
+  return clamped(point, begin - reach, end + reach);
+}
+
+/* The q > 0 below which `left` of the power of an order lies, but for A(m)^2. */
+ICW_DEVICE float spectrum_point(const PhysicalView &view,
+                                const Axis &axis,
+                                const int side,
+                                float left,
+                                const float nm_per_q,
+                                const float scale)
+{
+  const float open_nm = axis.open[side] * nm_per_q;
+  float density = 0.0f, end = before_horizon(view.edge_nm[0], open_nm);
+  for (int band = 0;; band++) {
+    density += axis.own_spectra ? view.rise[side][band] :
+                                  0.5f * (view.rise[0][band] + view.rise[1][band]);
+    const float begin = end;
+    end = before_horizon(view.edge_nm[band + 1], open_nm);
+    const float power = larger(density, 0.0f) * (end - begin);
+    if (left < power || band == band_count - 1) {
+      return band_point(begin / nm_per_q, end / nm_per_q, left / power, scale);
+    }
+    left -= power;
+  }
+}
+
+/* Variance of the lobe of an order, the same for all of its colours. */
+template<typename Real>
+ICW_DEVICE Real order_variance(const PhysicalParams &p, const Lattice &lattice, const Real m)
+{
+  return lobe_variance(p, lattice, Real{} + mean_nm, m * (mean_nm / lattice.spacing_nm));
+}
+
+/* Wavelength that order m has at q > 0; the less a lobe of variance sigma^2 tells it, the nearer
+ * to the mean. */
+template<typename Real>
+ICW_DEVICE Real order_wavelength(const PhysicalView &view,
+                                 const Lattice &lattice,
+                                 const Real m,
+                                 const float q,
+                                 const float variance)
+{
+  const Real nm_per_q = lattice.spacing_nm / m;
+  const Real unknown = (variance / square(spectrum_sigma_nm)) * nm_per_q * nm_per_q;
+  const Real nm = mean_nm + (q * nm_per_q - mean_nm) / (1.0f + unknown);
+  const float least = view.edge_nm[0], most = view.edge_nm[band_count];
+  return nm > least ? (nm < most ? nm : Real{} + most) : Real{} + least;
+}
+
+/* ---- Rows of orders (m, n) of one m ---- */
+
+/* The part of the surface that the wires of the other axis leave open: the factor of an axis' own
+ * orders, and what the orders of a row add up to. That of the wires along is divided by, so never
+ * 0. */
+ICW_DEVICE float open_across(const PhysicalParams &p)
+{
+  return 1.0f - p.across.duty;
+}
+
+ICW_DEVICE float open_along(const PhysicalParams &p)
+{
+  return p.along.spacing_nm > 0.0f ? larger(1.0f - p.along.duty, 1e-6f) : 1.0f;
+}
+
+/* Variance of v around order n, given the wavelength and how well u tells it. */
+template<typename Real>
+ICW_DEVICE Real row_variance(const PhysicalParams &p,
+                             const float wavelength_nm,
+                             const Real shift,
+                             const float relative)
+{
+  return lobe_variance(p, p.along, Real{} + wavelength_nm, shift) +
+         square(relative) * shift * shift;
 }
 
 /* Scale of a Cauchy density of v that far out is that of the orders beyond the limit: their power
@@ -255,76 +371,171 @@ ICW_DEVICE float row_tail_scale(const float per_order)
   return 0.5f * pi * (float(order_limit) + 0.5f) * per_order;
 }
 
-/* Density of v in a row m != 0 of orders (m, n), light of this wavelength, known to the part
- * `relative`. */
+/* Density of v in a row m != 0, light of this wavelength, known to the part `relative`. */
 ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
-                                   const Mixture &x,
                                    const float v,
                                    const float wavelength_nm,
                                    const float relative)
 {
-  if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_density(v, x.sigma_v);
-  }
-  float sum = x.open_along * logistic_density(v, x.sigma_v);
-  float left = p.along.duty;
   const float per_order = wavelength_nm / p.along.spacing_nm;
-  for (int n = 1; n <= order_limit; n++) {
-    const float share = square(sinf(pi * float(n) * p.along.duty) / (pi * float(n))) /
-                        x.open_along;
-    const float shift = float(n) * per_order;
-    const float sigma = row_sigma(p, wavelength_nm, shift, relative);
-    sum += share * (logistic_density(v - shift, sigma) + logistic_density(v + shift, sigma));
-    left -= 2.0f * share;
+  float sum = open_along(p) *
+              logistic_density(v, sqrtf(row_variance(p, wavelength_nm, 0.0f, 0.0f)));
+  Lanes lobes = lanes(0.0f), shares = lanes(0.0f);
+  for (int first = 1; first <= order_limit; first += lane_count) {
+    const Lanes n = float(first) + lane_numbers();
+    const Lanes share = n <= float(order_limit) ?
+                            order_powers(p.along, n) * (1.0f / open_along(p)) :
+                            lanes(0.0f);
+    const Lanes shift = per_order * n;
+    const Lanes sigma = lanes_sqrt(row_variance(p, wavelength_nm, shift, relative));
+    lobes += share * (logistic_lobes(v - shift, sigma) + logistic_lobes(v + shift, sigma));
+    shares += share;
   }
+  const float rest = larger(p.along.duty - 2.0f * lanes_sum(shares), 0.0f);
   const float scale = row_tail_scale(per_order);
-  return sum + larger(left, 0.0f) * scale / (pi * (square(v) + square(scale)));
+  return sum + lanes_sum(lobes) + rest * scale / (pi * (square(v) + square(scale)));
 }
 
-ICW_DEVICE float row_point(const PhysicalParams &p,
-                           const Mixture &x,
-                           const float random,
-                           const float wavelength_nm,
-                           const float relative)
+/* Its inverse. The random number chooses the side, then the order from the middle outwards. */
+ICW_DEVICE_LARGE float row_point(const PhysicalParams &p,
+                                 const float random,
+                                 const float wavelength_nm,
+                                 const float relative)
 {
+  const float sigma_0 = sqrtf(row_variance(p, wavelength_nm, 0.0f, 0.0f));
   if (!(p.along.spacing_nm > 0.0f)) {
-    return logistic_point(random, x.sigma_v);
+    return logistic_point(random, sigma_0);
   }
-  float left = random - x.open_along;
-  if (left < 0.0f) {
-    return logistic_point(random / x.open_along, x.sigma_v);
+  const float away = 2.0f * random - 1.0f, sign = away < 0.0f ? -1.0f : 1.0f;
+  const float open = open_along(p);
+  float left = fabsf(away);
+  if (left < open) {
+    return logistic_point(0.5f + 0.5f * away / open, sigma_0);
   }
+  left -= open;
   const float per_order = wavelength_nm / p.along.spacing_nm;
+  const AmplitudesSquared amplitudes = amplitudes_squared(p.along);
   float rest = p.along.duty;
   for (int n = 1; n <= order_limit; n++) {
-    const float share = square(sinf(pi * float(n) * p.along.duty) / (pi * float(n))) /
-                        x.open_along;
-    const float shift = float(n) * per_order;
-    if (left < 2.0f * share) {
-      const bool positive = left < share;
-      const float part = (positive ? left : left - share) / share;
-      return (positive ? shift : -shift) +
-             logistic_point(part, row_sigma(p, wavelength_nm, shift, relative));
+    const float share = 2.0f * amplitudes.order[n - 1] / open;
+    if (left < share) {
+      const float shift = float(n) * per_order;
+      return sign * (shift + logistic_point(left / share,
+                                            sqrtf(row_variance(
+                                                p, wavelength_nm, shift, relative))));
     }
-    left -= 2.0f * share;
-    rest -= 2.0f * share;
+    left -= share;
+    rest -= share;
   }
-  const float part = clamped(left / larger(rest, 1e-12f), 1e-6f, 1.0f - 1e-6f);
-  return row_tail_scale(per_order) * tanf(pi * (part - 0.5f));
+  const float part = clamped(left / larger(rest, 1e-12f), 0.0f, 1.0f - 1e-6f);
+  return sign * row_tail_scale(per_order) * tanf(0.5f * pi * part);
 }
 
-/* Wavelength that u is of in order m, and how well u tells it. */
-struct RowWavelength {
-  float nm, relative;
-};
-
-ICW_DEVICE RowWavelength row_wavelength(const PhysicalParams &p,
-                                        const Mixture &x,
-                                        const float u,
-                                        const float order)
+/* How well u tells the wavelength of an order. */
+ICW_DEVICE float row_relative(const PhysicalParams &p, const float m, const float wavelength_nm)
 {
-  const float nm = clamped(u * p.across.spacing_nm / order, shortest_nm, 700.0f);
-  return {nm, x.sigma_u * p.across.spacing_nm / (fabsf(order) * nm)};
+  return sqrtf(physical_lobe_variance(p, p.across)) * p.across.spacing_nm / (m * wavelength_nm);
+}
+
+/* What the wavelength of a tail is known to. */
+constexpr float tail_relative = 0.2f;
+
+/* ---- All orders of a side ---- */
+
+/* Density of the orders of one side, q > 0 there, and `other` across it. `rows`: each is a row of
+ * orders of the wires along. */
+ICW_DEVICE_LARGE float side_density(const PhysicalParams &p,
+                                    const PhysicalView &view,
+                                    const int axis_number,
+                                    const int side,
+                                    const float q,
+                                    const float other,
+                                    const bool rows)
+{
+  /* Orders whose lobes reach q: those behind the horizon are not where their wavelengths say. */
+  const Axis axis = view_axis(p, view, axis_number);
+  const float spacing_nm = axis.lattice.spacing_nm;
+  const float variance = physical_lobe_variance(p, axis.lattice);
+  const float reach = logistic_reach * sqrtf(variance);
+  const float spread_nm = logistic_reach * p.variation * mean_nm;
+  const float least_nm = view.edge_nm[0] - spread_nm;
+  float most = axis.last_order[side];
+  if (least_nm > 0.0f &&
+      q + reach + most * spread_nm / spacing_nm < (1.0f - hidden_part) * axis.open[side]) {
+    most = smaller(most, (q + reach) * spacing_nm / least_nm);
+  }
+  const float least = larger(
+      (q - reach) * spacing_nm / (view.edge_nm[band_count] + spread_nm), 1.0f);
+  if (!(least <= most)) {
+    return 0.0f;
+  }
+  const int last = int(most);
+  float sum = 0.0f;
+  for (int first = int(ceilf(least)); first <= last; first += lane_count) {
+    const Lanes m = float(first) + lane_numbers();
+    const Lanes scale = logistic_per_sigma * lanes_sqrt(order_variance(p, axis.lattice, m));
+    const Lanes nm = order_wavelength(view, axis.lattice, m, q, variance);
+    Lanes power = order_powers(axis.lattice, m);
+    if (!rows) {
+      power *= logistic_lobes(lanes(other),
+                              lanes_sqrt(lobe_variance(p, axis.other, nm, lanes(0.0f))));
+    }
+    for (int lane = 0; lane < lane_count && first + lane <= last; lane++) {
+      const float order = float(first + lane);
+      float density = get_lane(power, lane) *
+                      spectrum_density(
+                          view, axis, side, q, spacing_nm / order, get_lane(scale, lane));
+      if (rows && density > 0.0f) {
+        const float wavelength_nm = get_lane(nm, lane);
+        density *= row_density(p, other, wavelength_nm, row_relative(p, order, wavelength_nm));
+      }
+      sum += density;
+    }
+  }
+  return sum;
+}
+
+/* Fills in what the view sees of an axis, and returns the power of its orders. `along_axis` is the
+ * component of the view, `other` that across. */
+ICW_DEVICE float view_orders(const PhysicalParams &p,
+                             PhysicalView &view,
+                             const int axis_number,
+                             const float along_axis,
+                             const float other)
+{
+  const Lattice &lattice = axis_number == axis_across ? p.across : p.along;
+  if (!(lattice.spacing_nm > 0.0f)) {
+    return 0.0f;
+  }
+  const Lattice &other_lattice = axis_number == axis_across ? p.along : p.across;
+  const float sigma = sqrtf(physical_lobe_variance(p, lattice));
+  const float other_sigma = sqrtf(physical_lobe_variance(p, other_lattice));
+  const float radius = sigma +
+                       sqrtf(1.0f - square(larger(fabsf(other) - 2.0f * other_sigma, 0.0f)));
+  for (int side = 0; side < 2; side++) {
+    const float open = larger(side ? radius + along_axis : radius - along_axis, 0.0f);
+    view.open[axis_number][side] = open;
+    view.last_order[axis_number][side] = float(int(
+        smaller((open + 2.0f * sigma) * lattice.spacing_nm / shortest_nm, float(order_limit))));
+  }
+  const AmplitudesSquared amplitudes = amplitudes_squared(lattice);
+  if (tail_end(lattice, fabsf(along_axis), 1) > tail_least) {
+    float rest = 0.5f * lattice.duty * (1.0f - lattice.duty);
+    for (int k = 0; k < order_limit; k++) {
+      rest -= amplitudes.order[k];
+    }
+    const float far = 1e6f;
+    view.tail_power[axis_number] = larger(rest, 0.0f) *
+                                   0.5f * (spectrum_power(view, true, 0, far) +
+                                           spectrum_power(view, true, 1, far));
+  }
+  const Axis axis = view_axis(p, view, axis_number);
+  float sum = 0.0f;
+  for (int side = 0; side < 2; side++) {
+    sum += side_powers(view, axis, amplitudes.order, side).sum +
+           tail_share(axis, along_axis, side);
+  }
+  return sum;
 }
 
 }  // namespace physical_detail
@@ -337,59 +548,59 @@ ICW_DEVICE_LARGE PhysicalView physical_view(const PhysicalParams &p,
 {
   using namespace physical_detail;
   PhysicalView view = {};
-  /* Lanes: the mirror order, the first order on the negative and on the positive side, each at
-   * both humps. */
-  constexpr int used = 6;
-  float power[2] = {0.0f, 0.0f};
+  const auto row = [&](const int number, const int column) {
+    return tables.band_row(p.illuminant, number, column);
+  };
+  /* The film for the first order on the negative and on the positive side, at the nodes. */
+  float contrast[2 * band_node_count];
+  Lanes mirror_power = lanes(0.0f);
   const float ridge_part = covered(p.across, p.along);
-  for (int first = 0; first < used; first += lane_count) {
-    float cosine[lane_count], wavelength[lane_count], n[lane_count], k[lane_count];
-    for (int lane = 0; lane < lane_count; lane++) {
-      const int index = first + lane < used ? first + lane : 0;
-      const int hump = index % 2, side = index / 2 == 0 ? 0 : 2 * (index / 2) - 3;
-      const float nm = illuminant_hump(p.illuminant, hump).mean_nm;
-      const float out = -o.nu + float(side) * nm / p.across.spacing_nm;
-      cosine[lane] = larger(0.5f * (o.n + sqrtf(larger(1.0f - square(out) - square(o.tau), 0.0f))),
-                            1e-4f);
-      wavelength[lane] = nm;
-      const int cell = int(nm) - visible_first_nm;
-      const ComplexIndex metal = p.metal == metal_custom ? custom_index(p, nm) :
-                                                           tables.metal(p.metal, cell);
-      n[lane] = metal.n;
-      k[lane] = metal.k;
+  for (int first = 0; first < 2 * band_node_count; first += lane_count) {
+    const Lanes nm = row(band_row_node_nm, first);
+    const Lanes number = float(first) + lane_numbers();
+    const Lanes shift = nm * (1.0f / p.across.spacing_nm);
+    const Lanes out = (number < float(band_node_count) ? -shift : shift) - o.nu;
+    const Lanes cosine = lanes_sqrt(lanes_max(1.0f - square(o.tau) - out * out, lanes(0.0f)));
+    Complex<Lanes> metal;
+    if (p.metal == metal_custom) {
+      float n[lane_count], k[lane_count];
+      for (int lane = 0; lane < lane_count; lane++) {
+        const ComplexIndex index = custom_index(p, get_lane(nm, lane));
+        n[lane] = index.n;
+        k[lane] = index.k;
+      }
+      metal = {load_lanes(n), load_lanes(k)};
     }
-    const Lanes per_nm = 1.0f / load_lanes(wavelength);
+    else {
+      metal = {row(band_row_metal + 2 * int(p.metal), first),
+               row(band_row_metal + 2 * int(p.metal) + 1, first)};
+    }
+    const Lanes per_nm = 1.0f / nm;
     const FilmPair<Lanes> r = levels(p,
-                                     load_lanes(cosine),
+                                     lanes_max(0.5f * (o.n + cosine), lanes(1e-4f)),
                                      cauchy_index(p.oxide, per_nm),
-                                     {load_lanes(n), load_lanes(k)},
+                                     metal,
                                      per_nm);
-    const Lanes mirror = ridge_part * r.ridge + (1.0f - ridge_part) * r.groove -
-                         ridge_part * (1.0f - ridge_part) * r.contrast;
-    for (int lane = 0; lane < lane_count && first + lane < used; lane++) {
-      const int index = first + lane, hump = index % 2;
-      /* A little of each order is always sampled: what is dark at the humps need not be so
-       * between them. */
-      const float contrast = get_lane(r.contrast, lane) + 0.05f;
-      if (index < 2) {
-        view.mirror_contrast[hump] = contrast;
-        power[hump] = get_lane(mirror, lane) + 0.01f;
-      }
-      else {
-        view.contrast[index / 2 - 1][hump] = contrast;
-      }
-    }
+    store_lanes(order_part * (r.contrast + between_nodes), contrast + first);
+    mirror_power += row(band_row_part, first) *
+                    (ridge_part * r.ridge + (1.0f - ridge_part) * r.groove -
+                     ridge_part * (1.0f - ridge_part) * r.contrast + 0.01f);
   }
-  const float blue = illuminant_hump(p.illuminant, 0).weight;
-  view.mirror_power = blue * power[0] + (1.0f - blue) * power[1];
-
-  const Mixture x = mixture(p, view, o);
-  view.total_power = view.mirror_power +
-                     x.open_along * (comb_power(p, x.across, view.contrast) +
-                                     tail_total(x.across) * mean_contrast(view.contrast)) +
-                     square(x.open_across) *
-                         (comb_power(p, x.along, x.along_contrast) +
-                          tail_total(x.along) * mean_contrast(x.along_contrast));
+  view.mirror_power = lanes_sum(mirror_power);
+  for (int edge = 0; edge < band_edge_count; edge += lane_count) {
+    store_lanes(row(band_row_edge_nm, edge), view.edge_nm + edge);
+    Lanes rise[2] = {lanes(0.0f), lanes(0.0f)};
+    for (int node = 0; node < band_node_count; node++) {
+      const Lanes of_node = row(band_row_rise + node, edge);
+      rise[0] += contrast[node] * of_node;
+      rise[1] += contrast[band_node_count + node] * of_node;
+    }
+    store_lanes(rise[0], view.rise[0] + edge);
+    store_lanes(rise[1], view.rise[1] + edge);
+  }
+  const float across = view_orders(p, view, axis_across, o.nu, o.tau);
+  const float along = view_orders(p, view, axis_along, o.tau, o.nu);
+  view.total_power = view.mirror_power + open_along(p) * across + square(open_across(p)) * along;
   return view;
 }
 
@@ -400,39 +611,40 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
                                     const LocalDirection i)
 {
   using namespace physical_detail;
-  const Mixture x = mixture(p, view, o);
   const float u = i.nu + o.nu, v = i.tau + o.tau;
+  const float sigma_u = sqrtf(physical_lobe_variance(p, p.across));
+  const float sigma_v = sqrtf(physical_lobe_variance(p, p.along));
   const bool cross = p.along.spacing_nm > 0.0f;
-  const float mirror_u = logistic_density(u, x.sigma_u);
-  float sum = view.mirror_power * mirror_u * logistic_density(v, x.sigma_v);
-
-  float rows = 0.0f;
-  for (int first = 0; first < hump_count(x.across); first += lane_count) {
-    const Humps lobes = humps(p, x.across, view.contrast, first);
-    const Lanes density = lobes.power * logistic_lobes(u - lobes.mean, lobes.scale);
-    if (!cross) {
-      rows += lanes_sum(density);
-      continue;
-    }
-    for (int lane = 0; lane < lane_count; lane++) {
-      if (get_lane(density, lane) > 0.0f) {
-        const RowWavelength row = row_wavelength(p, x, u, get_lane(lobes.order, lane));
-        rows += get_lane(density, lane) * row_density(p, x, v, row.nm, row.relative);
-      }
+  const float reach_u = logistic_reach * sigma_u, reach_v = logistic_reach * sigma_v;
+  if (!cross && fabsf(v) > longest_width * reach_v) {
+    return 0.0f;
+  }
+  float sum = 0.0f;
+  if (fabsf(u) < reach_u && fabsf(v) < reach_v) {
+    sum = view.mirror_power * logistic_density(u, sigma_u) * logistic_density(v, sigma_v);
+  }
+  float across = 0.0f;
+  /* Without a spread of the spacing no lobe reaches further beyond the mirror direction. */
+  const float beyond = p.variation > 0.0f ? 1e6f : reach_u;
+  for (int side = 0; side < 2; side++) {
+    const float sign = side ? 1.0f : -1.0f;
+    if (sign * u > -beyond) {
+      across += side_density(p, view, axis_across, side, sign * u, v, cross);
     }
   }
-  const float tail = tail_density(x.across, u) * mean_contrast(view.contrast);
-  if (!cross) {
-    sum += (rows + tail) * logistic_density(v, x.sigma_v);
+  const float tail = tail_density(view_axis(p, view, axis_across), o.nu, u);
+  if (tail > 0.0f) {
+    across += tail * (cross ? row_density(p, v, mean_nm, tail_relative) :
+                              logistic_density(v, sigma_v));
   }
-  else {
-    sum += x.open_along * (rows + tail * row_density(p, x, v, mean_nm, 0.2f));
-    float along = tail_density(x.along, v) * mean_contrast(x.along_contrast);
-    for (int first = 0; first < hump_count(x.along); first += lane_count) {
-      const Humps lobes = humps(p, x.along, x.along_contrast, first);
-      along += lanes_sum(lobes.power * logistic_lobes(v - lobes.mean, lobes.scale));
+  sum += open_along(p) * across;
+  if (cross && fabsf(u) < longest_width * reach_u) {
+    const float tail_along = tail_density(view_axis(p, view, axis_along), o.tau, v);
+    float along = tail_along > 0.0f ? tail_along * logistic_density(u, sigma_u) : 0.0f;
+    for (int side = 0; side < 2; side++) {
+      along += side_density(p, view, axis_along, side, side ? v : -v, u, false);
     }
-    sum += square(x.open_across) * along * mirror_u;
+    sum += square(open_across(p)) * along;
   }
   return sum / view.total_power * i.n;
 }
@@ -445,57 +657,92 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
                                                 const float random_along)
 {
   using namespace physical_detail;
-  const Mixture x = mixture(p, view, o);
   float u = 0.0f, v = 0.0f;
 
-  /* Choose a lobe by its power; what is left of the random number chooses the place in it. */
+  /* Choose a lobe by its power, those of an axis in the order of their places; what is left of the
+   * random number chooses the place in it. */
   float left = random_across * view.total_power;
-  const float across_tail = x.open_along * tail_total(x.across) * mean_contrast(view.contrast);
-  const float along_tail = square(x.open_across) * tail_total(x.along) *
-                           mean_contrast(x.along_contrast);
   bool found = false;
-  if (left < view.mirror_power) {
-    u = logistic_point(left / view.mirror_power, x.sigma_u);
-    v = logistic_point(random_along, x.sigma_v);
-    found = true;
-  }
-  left -= view.mirror_power;
-  if (!found && left < across_tail) {
-    u = tail_point(x.across, left / across_tail);
-    v = row_point(p, x, random_along, mean_nm, 0.2f);
-    found = true;
-  }
-  left -= across_tail;
-  if (!found && left < along_tail) {
-    v = tail_point(x.along, left / along_tail);
-    u = logistic_point(random_along, x.sigma_u);
-    found = true;
-  }
-  left -= along_tail;
-  for (int axis = 0; axis < 2 && !found; axis++) {
-    const Comb &c = axis == 0 ? x.across : x.along;
-    const float scale = axis == 0 ? x.open_along : square(x.open_across);
-    for (int first = 0; first < hump_count(c) && !found; first += lane_count) {
-      const Humps lobes = humps(p, c, axis == 0 ? view.contrast : x.along_contrast, first);
-      for (int lane = 0; lane < lane_count && !found; lane++) {
-        const float power = scale * get_lane(lobes.power, lane);
-        if (left < power) {
-          const float q = get_lane(lobes.mean, lane) +
-                          logistic_point(left / power,
-                                         get_lane(lobes.scale, lane) / logistic_per_sigma);
-          if (axis == 0) {
-            const RowWavelength row = row_wavelength(p, x, q, get_lane(lobes.order, lane));
-            u = q;
-            v = row_point(p, x, random_along, row.nm, row.relative);
-          }
-          else {
-            v = q;
-            u = logistic_point(random_along, x.sigma_u);
-          }
-          found = true;
+  const auto choose_order = [&](const Axis &axis,
+                                const float scale,
+                                const float *amplitudes,
+                                const int side) {
+    const OrderPowers powers = side_powers(view, axis, amplitudes, side);
+    if (left >= scale * powers.sum) {
+      left -= scale * powers.sum;
+      return;
+    }
+    for (int k = 0; k < powers.count && !found; k++) {
+      const int m = side ? k + 1 : powers.count - k;
+      const float power = scale * powers.power[m - 1];
+      if (left < power) {
+        const float order = float(m), sign = side ? 1.0f : -1.0f;
+        const float part = (side ? left : power - left) / (scale * amplitudes[m - 1]);
+        const float nm_per_q = axis.lattice.spacing_nm / order;
+        const float q = spectrum_point(
+            view,
+            axis,
+            side,
+            part,
+            nm_per_q,
+            logistic_per_sigma * sqrtf(order_variance(p, axis.lattice, order)));
+        const float wavelength_nm = order_wavelength(
+            view, axis.lattice, order, q, physical_lobe_variance(p, axis.lattice));
+        if (axis.own_spectra) {
+          u = sign * q;
+          v = row_point(p, random_along, wavelength_nm, row_relative(p, order, wavelength_nm));
         }
-        left -= power;
+        else {
+          v = sign * q;
+          u = logistic_point(random_along,
+                             sqrtf(lobe_variance(p, p.across, wavelength_nm, 0.0f)));
+        }
+        found = true;
       }
+      left -= power;
+    }
+  };
+  const Axis across = view_axis(p, view, axis_across);
+  {
+    const AmplitudesSquared amplitudes = amplitudes_squared(p.across);
+    const float scale = open_along(p);
+    choose_order(across, scale, amplitudes.order, 0);
+    if (!found && left < view.mirror_power) {
+      u = logistic_point(left / view.mirror_power, sqrtf(physical_lobe_variance(p, p.across)));
+      v = logistic_point(random_along, sqrtf(physical_lobe_variance(p, p.along)));
+      found = true;
+    }
+    left -= view.mirror_power;
+    if (!found) {
+      choose_order(across, scale, amplitudes.order, 1);
+    }
+    for (int side = 0; side < 2 && !found; side++) {
+      const float tail = scale * tail_share(across, o.nu, side);
+      if (left < tail) {
+        const float q = tail_point(across, o.nu, side, left / tail);
+        u = side ? q : -q;
+        v = row_point(p, random_along, mean_nm, tail_relative);
+        found = true;
+      }
+      left -= tail;
+    }
+  }
+  if (!found && p.along.spacing_nm > 0.0f) {
+    const Axis along = view_axis(p, view, axis_along);
+    const AmplitudesSquared amplitudes = amplitudes_squared(p.along);
+    const float scale = square(open_across(p));
+    for (int side = 0; side < 2 && !found; side++) {
+      choose_order(along, scale, amplitudes.order, side);
+    }
+    for (int side = 0; side < 2 && !found; side++) {
+      const float tail = scale * tail_share(along, o.tau, side);
+      if (left < tail) {
+        const float q = tail_point(along, o.tau, side, left / tail);
+        v = side ? q : -q;
+        u = logistic_point(random_along, sqrtf(physical_lobe_variance(p, p.across)));
+        found = true;
+      }
+      left -= tail;
     }
   }
 

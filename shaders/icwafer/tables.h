@@ -6,7 +6,8 @@
  *   visible range,
  * - for each metal the index {n, k} at each nanometre,
  * - for each lamp the quadrature rules (spectral_rules.h), each in rows as long as it has nodes:
- *   wavelength; weights of red, green, blue; n and k of each metal.
+ *   wavelength; weights of red, green, blue; n and k of each metal,
+ * - for each lamp the bands of the spectrum for sampling (BandRow).
  *
  * `material_tables` (material_tables.h) makes them. */
 
@@ -49,7 +50,26 @@ ICW_DEVICE constexpr int rule_first_node(const int rule)
 }
 
 constexpr int rules_size = rule_rows * rule_first_node(rule_count);
-constexpr int material_tables_size = rule_tables_offset + illuminant_count * rules_size;
+constexpr int band_tables_offset = rule_tables_offset + illuminant_count * rules_size;
+
+/* Bands in which sampling takes the spectrum of a lamp as even: narrow where the eye sees much.
+ * What a surface reflects is looked up in the middle of every other band only. */
+constexpr int band_count = 7, band_edge_count = band_count + 1, band_node_count = 4;
+static_assert(band_edge_count == 2 * band_node_count, "rows have one length");
+
+/* Rows of band_edge_count: the edges; for each node how much the density of sampling rises at each
+ * edge where only it reflects; then, for the nodes on either side of the mirror direction, the
+ * wavelength, its part in the spectrum, and n and k of each metal. */
+enum BandRow {
+  band_row_edge_nm,
+  band_row_rise,
+  band_row_node_nm = band_row_rise + band_node_count,
+  band_row_part,
+  band_row_metal,
+};
+constexpr int bands_size = band_edge_count * (band_row_metal + 2 * metal_tabulated_count);
+
+constexpr int material_tables_size = band_tables_offset + illuminant_count * bands_size;
 
 ICW_DEVICE constexpr int metal_index(const Metal metal, const int cell)
 {
@@ -110,6 +130,15 @@ struct MaterialTables {
   {
     return load_lanes(read(rule_tables_offset + int(illuminant) * rules_size +
                            rule_rows * rule_first_node(rule) + row * rule_nodes(rule) + node));
+  }
+
+  /* Part of a row of the bands, from `column`. */
+  ICW_DEVICE_METHOD Lanes band_row(const Illuminant illuminant,
+                                   const int row,
+                                   const int column) const
+  {
+    return load_lanes(
+        read(band_tables_offset + int(illuminant) * bands_size + band_edge_count * row + column));
   }
 
   /* Sensitivity at a wavelength, under light of equal energy. */
