@@ -125,7 +125,8 @@ ICW_DEVICE_LARGE Lanes order_density(const Lanes x,
     sum += weight * lanes_bell(two_pi * turns * w) * damping * damping *
            ((1.0f - t * t) * cosine + 2.0f * t * sine);
   }
-  return mean * sum;
+  /* No A(m)^2 is above f^2; of wires far thinner than their period the sum is all rounding. */
+  return lanes_min(mean * sum, lanes(20.0f * f * f));
 }
 
 }  // namespace icwafer

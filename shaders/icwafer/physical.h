@@ -69,6 +69,14 @@ constexpr float node_film[most_nodes_per_order] = {0.15f, 0.5f, 1.0f};
 constexpr float order_first_nm = 387.0f, order_last_nm = 740.0f;
 constexpr float least_orders = 3.0f, few_orders = 5.0f, few_orders_sigma = 0.7f;
 
+/* The last order, no whole number, whose lobe reaches back to q with visible light. */
+ICW_DEVICE float order_reach(const PhysicalParams &p, const Lattice &lattice, const float q)
+{
+  const float reach = lobe_reach * sqrtf(lobe_variance(p, lattice, last_nm, 0.0f));
+  return (q + reach) / larger(1.0f - lobe_reach * p.variation, 0.1f) * lattice.spacing_nm /
+         first_nm;
+}
+
 /* How fast the integrand varies over the spectrum, for one pair of directions. A path X is what
  * makes cos(2 pi X / lambda). */
 struct Variation {
@@ -418,10 +426,9 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
 
   /* Orders whose lobes reach into the visible range. */
   const float reach = lobe_reach * (swap ? sigma_v : sigma_u);
-  const float reach_spread = lobe_reach * p.variation;
   const int order_first = int(
-      ceilf(larger((q - reach) / (1.0f + reach_spread) * spacing_nm / last_nm, 1.0f)));
-  const float order_most = (q + reach) / larger(1.0f - reach_spread, 0.1f) * spacing_nm / first_nm;
+      ceilf(larger((q - reach) / (1.0f + lobe_reach * p.variation) * spacing_nm / last_nm, 1.0f)));
+  const float order_most = order_reach(p, nodes.first, q);
   if (!mirror && order_most < float(order_first)) {
     return {0.0f, 0.0f, 0.0f};
   }

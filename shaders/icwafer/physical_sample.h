@@ -4,8 +4,8 @@
  * under the lamp, then the place within the lobe.
  *
  * Because du dv = cos theta d omega, directions are sampled as points of the unit disc. The
- * density of (u, v) is a mixture of the mirror order, of the orders of each axis, and of a tail for
- * orders too many to tell apart, which falls off about as their power does,
+ * density of (u, v) is a mixture of the mirror order, of the orders of each axis, and of a tail
+ * for orders too many to tell apart, which falls off about as their power does,
  *
  *   1 / (m + m_1)^2.
  *
@@ -19,12 +19,12 @@
  *
  *   a + s (t + log((1 - exp(-t)) / (1 - exp(t - D)))).
  *
- * The order and its u tell the wavelength, which gives the width of v. With crossing wires an order
- * (m, n) has its u and its v from one wavelength, too: u is drawn first.
+ * The order and its u tell the wavelength, which gives the width of v. With crossing wires an
+ * order (m, n) has its u and its v from one wavelength, too: u is drawn first.
  *
  * Orders and bands follow each other as their places do, so that samples whose random numbers are
- * spread evenly spread evenly over colours. A point outside the disc is no direction: a sample that
- * finds none, as in other closures. Evaluation and sampling use this one density. */
+ * spread evenly spread evenly over colours. A point outside the disc is no direction: a sample
+ * that finds none, as in other closures. Evaluation and sampling use this one density. */
 
 #pragma once
 
@@ -194,7 +194,8 @@ ICW_DEVICE Lanes spectrum_rise(const PhysicalView &view,
 
 /* Where the horizon is at open_nm, of the light beyond little is sampled, right behind it: for the
  * lobes' edges that come back over it. */
-template<typename Real> ICW_DEVICE Real before_horizon(const Real nm, const float open_nm)
+template<typename Real>
+ICW_DEVICE Real before_horizon(const Real nm, const float open_nm)
 {
   const Real behind = (1.0f - hidden_part) * open_nm + hidden_part * nm;
   return nm < behind ? nm : behind;
@@ -286,8 +287,8 @@ ICW_DEVICE float band_point(const float begin,
   const float inside = clamped(part, 1e-6f, 1.0f - 1e-6f);
   const float width = (end - begin) / scale;
   const float t = inside * width;
-  const float point = begin +
-                      scale * (t + logf(one_minus_exp(t) / one_minus_exp((1.0f - inside) * width)));
+  const float point = begin + scale * (t + logf(one_minus_exp(t) /
+                                                one_minus_exp((1.0f - inside) * width)));
   const float reach = 0.98f * logistic_reach / logistic_per_sigma * scale;
   return clamped(point, begin - reach, end + reach);
 }
@@ -420,9 +421,9 @@ ICW_DEVICE_LARGE float row_point(const PhysicalParams &p,
     const float share = 2.0f * amplitudes.order[n - 1] / open;
     if (left < share) {
       const float shift = float(n) * per_order;
-      return sign * (shift + logistic_point(left / share,
-                                            sqrtf(row_variance(
-                                                p, wavelength_nm, shift, relative))));
+      return sign *
+             (shift + logistic_point(left / share,
+                                     sqrtf(row_variance(p, wavelength_nm, shift, relative))));
     }
     left -= share;
     rest -= share;
@@ -464,8 +465,8 @@ ICW_DEVICE_LARGE float side_density(const PhysicalParams &p,
       q + reach + most * spread_nm / spacing_nm < (1.0f - hidden_part) * axis.open[side]) {
     most = smaller(most, (q + reach) * spacing_nm / least_nm);
   }
-  const float least = larger(
-      (q - reach) * spacing_nm / (view.edge_nm[band_count] + spread_nm), 1.0f);
+  const float least = larger((q - reach) * spacing_nm / (view.edge_nm[band_count] + spread_nm),
+                             1.0f);
   if (!(least <= most)) {
     return 0.0f;
   }
@@ -515,8 +516,8 @@ ICW_DEVICE float view_orders(const PhysicalParams &p,
   for (int side = 0; side < 2; side++) {
     const float open = larger(side ? radius + along_axis : radius - along_axis, 0.0f);
     view.open[axis_number][side] = open;
-    view.last_order[axis_number][side] = float(int(
-        smaller((open + 2.0f * sigma) * lattice.spacing_nm / shortest_nm, float(order_limit))));
+    view.last_order[axis_number][side] = float(
+        int(smaller(order_reach(p, lattice, open), float(order_limit))));
   }
   const AmplitudesSquared amplitudes = amplitudes_squared(lattice);
   if (tail_end(lattice, fabsf(along_axis), 1) > tail_least) {
@@ -525,9 +526,9 @@ ICW_DEVICE float view_orders(const PhysicalParams &p,
       rest -= amplitudes.order[k];
     }
     const float far = 1e6f;
-    view.tail_power[axis_number] = larger(rest, 0.0f) *
-                                   0.5f * (spectrum_power(view, true, 0, far) +
-                                           spectrum_power(view, true, 1, far));
+    view.tail_power[axis_number] = larger(rest, 0.0f) * 0.5f *
+                                   (spectrum_power(view, true, 0, far) +
+                                    spectrum_power(view, true, 1, far));
   }
   const Axis axis = view_axis(p, view, axis_number);
   float sum = 0.0f;
@@ -634,8 +635,8 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   }
   const float tail = tail_density(view_axis(p, view, axis_across), o.nu, u);
   if (tail > 0.0f) {
-    across += tail * (cross ? row_density(p, v, mean_nm, tail_relative) :
-                              logistic_density(v, sigma_v));
+    across += tail *
+              (cross ? row_density(p, v, mean_nm, tail_relative) : logistic_density(v, sigma_v));
   }
   sum += open_along(p) * across;
   if (cross && fabsf(u) < longest_width * reach_u) {
@@ -663,45 +664,43 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
    * random number chooses the place in it. */
   float left = random_across * view.total_power;
   bool found = false;
-  const auto choose_order = [&](const Axis &axis,
-                                const float scale,
-                                const float *amplitudes,
-                                const int side) {
-    const OrderPowers powers = side_powers(view, axis, amplitudes, side);
-    if (left >= scale * powers.sum) {
-      left -= scale * powers.sum;
-      return;
-    }
-    for (int k = 0; k < powers.count && !found; k++) {
-      const int m = side ? k + 1 : powers.count - k;
-      const float power = scale * powers.power[m - 1];
-      if (left < power) {
-        const float order = float(m), sign = side ? 1.0f : -1.0f;
-        const float part = (side ? left : power - left) / (scale * amplitudes[m - 1]);
-        const float nm_per_q = axis.lattice.spacing_nm / order;
-        const float q = spectrum_point(
-            view,
-            axis,
-            side,
-            part,
-            nm_per_q,
-            logistic_per_sigma * sqrtf(order_variance(p, axis.lattice, order)));
-        const float wavelength_nm = order_wavelength(
-            view, axis.lattice, order, q, physical_lobe_variance(p, axis.lattice));
-        if (axis.own_spectra) {
-          u = sign * q;
-          v = row_point(p, random_along, wavelength_nm, row_relative(p, order, wavelength_nm));
+  const auto choose_order =
+      [&](const Axis &axis, const float scale, const float *amplitudes, const int side) {
+        const OrderPowers powers = side_powers(view, axis, amplitudes, side);
+        if (left >= scale * powers.sum) {
+          left -= scale * powers.sum;
+          return;
         }
-        else {
-          v = sign * q;
-          u = logistic_point(random_along,
-                             sqrtf(lobe_variance(p, p.across, wavelength_nm, 0.0f)));
+        for (int k = 0; k < powers.count && !found; k++) {
+          const int m = side ? k + 1 : powers.count - k;
+          const float power = scale * powers.power[m - 1];
+          if (left < power) {
+            const float order = float(m), sign = side ? 1.0f : -1.0f;
+            const float part = (side ? left : power - left) / (scale * amplitudes[m - 1]);
+            const float nm_per_q = axis.lattice.spacing_nm / order;
+            const float q = spectrum_point(
+                view,
+                axis,
+                side,
+                part,
+                nm_per_q,
+                logistic_per_sigma * sqrtf(order_variance(p, axis.lattice, order)));
+            const float wavelength_nm = order_wavelength(
+                view, axis.lattice, order, q, physical_lobe_variance(p, axis.lattice));
+            if (axis.own_spectra) {
+              u = sign * q;
+              v = row_point(p, random_along, wavelength_nm, row_relative(p, order, wavelength_nm));
+            }
+            else {
+              v = sign * q;
+              u = logistic_point(random_along,
+                                 sqrtf(lobe_variance(p, p.across, wavelength_nm, 0.0f)));
+            }
+            found = true;
+          }
+          left -= power;
         }
-        found = true;
-      }
-      left -= power;
-    }
-  };
+      };
   const Axis across = view_axis(p, view, axis_across);
   {
     const AmplitudesSquared amplitudes = amplitudes_squared(p.across);
