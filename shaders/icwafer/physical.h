@@ -63,16 +63,24 @@ constexpr int window_limit = 24;
  * x^4 / 12, x^6 / 120 of what varies as cos(x q / s). They do for the sensitivities under a lamp
  * without lines up to such widths of the lobe, and for films up to such x. */
 constexpr int most_nodes_per_order = 3;
-constexpr float node_sigma_nm[most_nodes_per_order] = {4.0f, 8.0f, 10.5f};
-constexpr float node_film[most_nodes_per_order] = {0.15f, 0.5f, 1.0f};
+constexpr float node_sigma_nm[most_nodes_per_order] = {4.5f, 9.0f, 11.0f};
+constexpr float node_film[most_nodes_per_order] = {0.18f, 0.6f, 1.1f};
 /* Between these an order counts; of fewer orders it matters more how well each is integrated. */
 constexpr float order_first_nm = 387.0f, order_last_nm = 740.0f;
 constexpr float least_orders = 3.0f, few_orders = 5.0f, few_orders_sigma = 0.7f;
 
-/* The last order, no whole number, whose lobe reaches back to q with visible light. */
-ICW_DEVICE float order_reach(const PhysicalParams &p, const Lattice &lattice, const float q)
+/* How far lobes reach without the spread of the spacing. */
+ICW_DEVICE float lobes_reach(const PhysicalParams &p, const Lattice &lattice)
 {
-  const float reach = lobe_reach * sqrtf(lobe_variance(p, lattice, last_nm, 0.0f));
+  return lobe_reach * sqrtf(lobe_variance(p, lattice, last_nm, 0.0f));
+}
+
+/* The last order, no whole number, whose lobe is visible and reaches back to q. */
+ICW_DEVICE float last_order(const PhysicalParams &p,
+                            const Lattice &lattice,
+                            const float q,
+                            const float reach)
+{
   return (q + reach) / larger(1.0f - lobe_reach * p.variation, 0.1f) * lattice.spacing_nm /
          first_nm;
 }
@@ -340,7 +348,7 @@ ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
     return count < few_nodes || count < node_count(variation, all_orders(variation, false));
   };
   nodes.orders = Orders::Single;
-  if (variation.lamp_is_smooth()) {
+  if (variation.lamp_is_smooth() && variation.order_path_nm() > least_orders * order_first_nm) {
     const OrderRules rules = order_rules(variation);
     if (rules.count >= least_orders && rules.nodes_per_order <= most_nodes_per_order &&
         few(float(rules.node_count()))) {
@@ -428,7 +436,7 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   const float reach = lobe_reach * (swap ? sigma_v : sigma_u);
   const int order_first = int(
       ceilf(larger((q - reach) / (1.0f + lobe_reach * p.variation) * spacing_nm / last_nm, 1.0f)));
-  const float order_most = order_reach(p, nodes.first, q);
+  const float order_most = last_order(p, nodes.first, q, reach);
   if (!mirror && order_most < float(order_first)) {
     return {0.0f, 0.0f, 0.0f};
   }

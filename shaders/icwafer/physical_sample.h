@@ -517,7 +517,7 @@ ICW_DEVICE float view_orders(const PhysicalParams &p,
     const float open = larger(side ? radius + along_axis : radius - along_axis, 0.0f);
     view.open[axis_number][side] = open;
     view.last_order[axis_number][side] = float(
-        int(smaller(order_reach(p, lattice, open), float(order_limit))));
+        int(smaller(last_order(p, lattice, open, lobes_reach(p, lattice)), float(order_limit))));
   }
   const AmplitudesSquared amplitudes = amplitudes_squared(lattice);
   if (tail_end(lattice, fabsf(along_axis), 1) > tail_least) {
