@@ -57,7 +57,7 @@ def film(
 def model(
     wavelength_um: float, metal: complex, period_um: float, theta_deg: float, order: int
 ) -> float:
-    """Efficiency of an order in the PHYSICAL model (shaders/icwafer/physical.h)."""
+    """Efficiency of an order in the PHYSICAL model (shaders/icwafer/physical_model.h)."""
     sine = np.sin(np.radians(theta_deg)) + order * wavelength_um / period_um
     cosine = 0.5 * (np.cos(np.radians(theta_deg)) + np.sqrt(1.0 - sine**2))
     ridge = film(cosine, wavelength_um, metal, OXIDE_UM)
