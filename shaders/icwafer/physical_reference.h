@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 
 /* The PHYSICAL model by brute force: every wavelength, every order, in double, straight from the
- * formulas at the head of physical.h, the film by the transfer-matrix method. Slow on purpose;
- * what the renderer's evaluation is compared with (host only). */
+ * formulas at the head of physical_model.h, the film by the transfer-matrix method. Slow on
+ * purpose; what the renderer's evaluation is compared with (host only). */
 
 #pragma once
 

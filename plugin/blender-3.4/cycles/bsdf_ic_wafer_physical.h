@@ -4,7 +4,7 @@
  * IC WAFER BSDF, model PHYSICAL
  *
  * Metal wires under oxide as a phase grating. The optics and their papers are in
- * kernel/icwafer/physical.h; this file only turns the closure's frame into theirs.
+ * kernel/icwafer/physical_model.h; this file only turns the closure's frame into theirs.
  */
 
 #pragma once
