@@ -59,12 +59,7 @@ constexpr float whole_step_nm = 2.0f;
 constexpr float few_nodes = 20.0f;
 /* More orders than this are not summed one by one. */
 constexpr int window_limit = 24;
-/* Of a lobe of standard deviation s, Gauss-Hermite rules of one, two, three nodes leave x^2 / 2,
- * x^4 / 12, x^6 / 120 of what varies as cos(x q / s). They do for the sensitivities under a lamp
- * without lines up to such widths of the lobe, and for films up to such x. */
 constexpr int most_nodes_per_order = 3;
-constexpr float node_sigma_nm[most_nodes_per_order] = {4.5f, 9.0f, 11.0f};
-constexpr float node_film[most_nodes_per_order] = {0.18f, 0.6f, 1.1f};
 /* Between these an order counts; of fewer orders it matters more how well each is integrated. */
 constexpr float order_first_nm = 387.0f, order_last_nm = 740.0f;
 constexpr float least_orders = 3.0f, few_orders = 5.0f, few_orders_sigma = 0.7f;
@@ -204,8 +199,13 @@ struct OrderRules {
   }
 };
 
+/* Of a lobe of standard deviation s, Gauss-Hermite rules of one, two, three nodes leave x^2 / 2,
+ * x^4 / 12, x^6 / 120 of what varies as cos(x q / s). They do for the sensitivities under a lamp
+ * without lines up to such widths of the lobe, and for films up to such x. */
 ICW_DEVICE OrderRules order_rules(const Variation &variation)
 {
+  constexpr float node_sigma_nm[most_nodes_per_order] = {4.5f, 9.0f, 11.0f};
+  constexpr float node_film[most_nodes_per_order] = {0.18f, 0.6f, 1.1f};
   const float path_nm = variation.order_path_nm();
   const float first = larger(ceilf(path_nm / order_last_nm), 1.0f);
   constexpr float nm = 550.0f;

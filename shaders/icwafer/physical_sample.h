@@ -156,7 +156,7 @@ ICW_DEVICE float tail_share(const Axis &axis, const float view, const int side)
   return tail_end(axis.lattice, view, side) > tail_least ? axis.tail_power : 0.0f;
 }
 
-/* Density of the tails over q, times their power. */
+/* Density of the tails over q, times their power. No direction is beyond their ends. */
 ICW_DEVICE float tail_density(const Axis &axis, const float view, const float q)
 {
   const int side = q > 0.0f;
@@ -164,7 +164,7 @@ ICW_DEVICE float tail_density(const Axis &axis, const float view, const float q)
   const float per_q = axis.lattice.spacing_nm / mean_nm;
   const float order = fabsf(q) * per_q;
   const float end = tail_end(axis.lattice, view, side);
-  if (!(share > 0.0f) || order < tail_begin || order > end) {
+  if (!(share > 0.0f) || order < tail_begin) {
     return 0.0f;
   }
   const float shift = tail_shift(axis.lattice);
