@@ -36,9 +36,8 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open, con
   /* The last group within the horizon may reach beyond it. */
   float power[grouped_orders];
   for (int k = 0; k < grouped_orders && float(k) < 1.4f * horizon; k += lane_count) {
-    const Lanes amplitude = open *
-                            order_amplitude(float(k + 1) + lane_numbers(), lanes(lattice.duty));
-    store_lanes(amplitude * amplitude, power + k);
+    store_lanes(square(open) * order_power(float(k + 1) + lane_numbers(), lanes(lattice.duty)),
+                power + k);
   }
   float left = square(open) * lattice.duty * (1.0f - lattice.duty);
   int first = 1;

@@ -38,6 +38,13 @@ ICW_DEVICE Lanes order_amplitude(const Lanes m, const Lanes duty)
   return m == 0.0f ? duty : lanes_sin_turns(0.5f * m * duty) / (pi * divisor);
 }
 
+/* A(m)^2. */
+ICW_DEVICE Lanes order_power(const Lanes m, const Lanes duty)
+{
+  const Lanes amplitude = order_amplitude(m, duty);
+  return amplitude * amplitude;
+}
+
 /* Sum over m != 0 of A(m)^2 Gaussian(x - m; w(m)).
  *
  * As A(m)^2 is the same for f and 1 - f, f <= 1/2 here. Two things bound the number of terms,
@@ -74,13 +81,12 @@ ICW_DEVICE_LARGE Lanes order_sum(const Lanes x,
   for (int j = 0; j < count; j++) {
     const float away = j % 2 == 0 ? -0.5f * float(j) : 0.5f * float(j + 1);
     const Lanes m = (nearest + away * across) * stride;
-    const Lanes amplitude = order_amplitude(m, f_seen);
     Lanes per_w = per_w_0;
     if (variation > 0.0f) {
       const Lanes spread_m = variation * m;
       per_w = 1.0f / lanes_sqrt(w_0 * w_0 + spread_m * spread_m);
     }
-    sum += amplitude * amplitude * per_w * lanes_bell((x - m) * per_w);
+    sum += order_power(m, f_seen) * per_w * lanes_bell((x - m) * per_w);
   }
   const Lanes tip = (f - f_seen - f * f) * per_w_0 * lanes_bell(x * per_w_0);
   return 0.39894228f * lanes_max(stride * sum + tip, lanes(0.0f));

@@ -350,8 +350,11 @@ ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
   nodes.orders = Orders::Single;
   if (variation.lamp_is_smooth() && variation.order_path_nm() > least_orders * order_first_nm) {
     const OrderRules rules = order_rules(variation);
-    if (rules.count >= least_orders && rules.nodes_per_order <= most_nodes_per_order &&
-        few(float(rules.node_count()))) {
+    if (rules.count >= least_orders && rules.nodes_per_order <= most_nodes_per_order) {
+      /* Trapezoids would take more nodes. */
+      if (!few(float(rules.node_count()))) {
+        return false;
+      }
       add_order_rules(nodes, variation, rules);
       return true;
     }

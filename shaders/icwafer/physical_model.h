@@ -42,7 +42,6 @@
 #include "order_sum.h"
 #include "oxides.h"
 #include "spectrum.h"
-#include "tables.h"
 
 namespace icwafer {
 
@@ -177,6 +176,17 @@ ICW_DEVICE ComplexIndex custom_index(const PhysicalParams &p, const float wavele
               to_red * (p.custom_n[0] - p.custom_n[1]),
           p.custom_k[2] + to_green * (p.custom_k[1] - p.custom_k[2]) +
               to_red * (p.custom_k[0] - p.custom_k[1])};
+}
+
+ICW_DEVICE Complex<Lanes> custom_metal(const PhysicalParams &p, const Lanes wavelength)
+{
+  float n[lane_count], k[lane_count];
+  for (int lane = 0; lane < lane_count; lane++) {
+    const ComplexIndex index = custom_index(p, get_lane(wavelength, lane));
+    n[lane] = index.n;
+    k[lane] = index.k;
+  }
+  return {load_lanes(n), load_lanes(k)};
 }
 
 /* The two levels, the mean of both polarisations. */

@@ -128,13 +128,6 @@ ICW_DEVICE Axis view_axis(const PhysicalParams &p, const PhysicalView &view, con
           across};
 }
 
-/* A(m)^2. */
-ICW_DEVICE Lanes order_powers(const Lattice &lattice, const Lanes m)
-{
-  const Lanes amplitude = order_amplitude(m, lanes(lattice.duty));
-  return amplitude * amplitude;
-}
-
 /* ---- Tails ---- */
 
 ICW_DEVICE float tail_shift(const Lattice &lattice)
@@ -250,7 +243,7 @@ ICW_DEVICE AmplitudesSquared amplitudes_squared(const Lattice &lattice)
 {
   AmplitudesSquared result;
   for (int k = 0; k < order_limit; k += lane_count) {
-    store_lanes(order_powers(lattice, float(k + 1) + lane_numbers()), result.order + k);
+    store_lanes(order_power(float(k + 1) + lane_numbers(), lanes(lattice.duty)), result.order + k);
   }
   return result;
 }
@@ -386,7 +379,7 @@ ICW_DEVICE_LARGE float row_density(const PhysicalParams &p,
   for (int first = 1; first <= order_limit; first += lane_count) {
     const Lanes n = float(first) + lane_numbers();
     const Lanes share = n <= float(order_limit) ?
-                            order_powers(p.along, n) * (1.0f / open_along(p)) :
+                            order_power(n, lanes(p.along.duty)) * (1.0f / open_along(p)) :
                             lanes(0.0f);
     const Lanes shift = per_order * n;
     const Lanes sigma = lanes_sqrt(row_variance(p, wavelength_nm, shift, relative));
@@ -477,7 +470,7 @@ ICW_DEVICE_LARGE float side_density(const PhysicalParams &p,
     const Lanes m = float(first) + lane_numbers();
     const Lanes scale = logistic_per_sigma * lanes_sqrt(order_variance(p, axis.lattice, m));
     const Lanes nm = order_wavelength(view, axis.lattice, m, q, variance);
-    Lanes power = order_powers(axis.lattice, m);
+    Lanes power = order_power(m, lanes(axis.lattice.duty));
     if (!rows) {
       power *= logistic_lobes(lanes(other),
                               lanes_sqrt(lobe_variance(p, axis.other, nm, lanes(0.0f))));
@@ -565,13 +558,7 @@ ICW_DEVICE_LARGE PhysicalView physical_view(const PhysicalParams &p,
     const Lanes cosine = lanes_sqrt(lanes_max(1.0f - square(o.tau) - out * out, lanes(0.0f)));
     Complex<Lanes> metal;
     if (p.metal == metal_custom) {
-      float n[lane_count], k[lane_count];
-      for (int lane = 0; lane < lane_count; lane++) {
-        const ComplexIndex index = custom_index(p, get_lane(nm, lane));
-        n[lane] = index.n;
-        k[lane] = index.k;
-      }
-      metal = {load_lanes(n), load_lanes(k)};
+      metal = custom_metal(p, nm);
     }
     else {
       metal = {row(band_row_metal + 2 * int(p.metal), first),

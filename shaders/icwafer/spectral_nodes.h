@@ -56,7 +56,7 @@ struct Integrator {
     tables.sensitivities(p.illuminant, cell, s_red, s_green, s_blue);
     Complex<Lanes> metal, next_metal;
     if (p.metal == metal_custom) {
-      metal = custom_metal(wavelength);
+      metal = custom_metal(p, wavelength);
     }
     else {
       tables.metals(p.metal, cell, metal, next_metal);
@@ -97,7 +97,7 @@ struct Integrator {
       const Lanes wavelength = row(0);
       Complex<Lanes> metal;
       if (p.metal == metal_custom) {
-        metal = custom_metal(wavelength);
+        metal = custom_metal(p, wavelength);
       }
       else {
         metal = {row(4 + 2 * int(p.metal)), row(5 + 2 * int(p.metal))};
@@ -107,17 +107,6 @@ struct Integrator {
       green += row(2) * f;
       blue += row(3) * f;
     }
-  }
-
-  ICW_DEVICE_METHOD Complex<Lanes> custom_metal(const Lanes wavelength) const
-  {
-    float n[lane_count], k[lane_count];
-    for (int lane = 0; lane < lane_count; lane++) {
-      const ComplexIndex index = custom_index(p, get_lane(wavelength, lane));
-      n[lane] = index.n;
-      k[lane] = index.k;
-    }
-    return {load_lanes(n), load_lanes(k)};
   }
 
   /* The ripples of a density, without those that are hidden, may go below 0. */
@@ -205,11 +194,10 @@ struct Integrator {
                  q_first * per_shift, sigma * per_shift, first.duty, p.variation, dense_ripples);
     }
     const Lanes shift = node_order * wavelength / first.spacing_nm;
-    const Lanes amplitude = order_amplitude(node_order, lanes(first.duty));
     const Lanes sigma_m = p.variation > 0.0f ?
                               lanes_sqrt(lobe_variance(p, first, wavelength, shift)) :
                               sigma;
-    return amplitude * amplitude * lanes_gaussian(q_first - shift, sigma_m);
+    return order_power(node_order, lanes(first.duty)) * lanes_gaussian(q_first - shift, sigma_m);
   }
 };
 

@@ -44,8 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *bytes, const size_t count)
     const Rgb f = physical_eval(p, i, o, fuzz::tables);
     FUZZ_EXPECT(fuzz::is_density(pdf));
     FUZZ_EXPECT(fuzz::is_light(f));
-    /* Where there is light there are samples, but for the outermost 0.2 % of the spectrum, which are
-     * far darker than the mirror order. */
+    /* Where there is light there are samples, but for the outermost 0.2 % of the spectrum, which
+     * are far darker than the mirror order. */
     FUZZ_EXPECT(pdf > 0.0f ||
                 brightest(f) < 3e-4f * physical_pdf(p, view, o, {-o.nu, -o.tau, o.n}) / o.n);
     const Rgb back = physical_eval(p, o, i, fuzz::tables);
