@@ -70,12 +70,16 @@ constexpr float hidden_part = 0.05f;
  * lamp and a sky the noise of frames was found to be least with these two; under a sky alone an
  * order_part of 1 leaves a fifth less. */
 constexpr float between_nodes = 0.3f, order_part = 0.63f;
+/* Of each order so much is spread evenly over the visible range and all that its lobes reach, so
+ * that there are samples of the darkest ends of the spectrum, too. */
+constexpr float even_power = 0.01f * order_part;
 /* Fits a Gaussian's body best. */
 constexpr float logistic_per_sigma = 0.59f;
 /* Where the density is left out, at 1e-6 of its middle, and the part of it that lies beyond. */
 constexpr float logistic_reach = 8.0f, logistic_beyond = 1.5e-6f;
-/* How much wider than at the mean wavelength the lobe of the longest is, at most. */
-constexpr float longest_width = 1.35f;
+/* Where the lobe of the longest wavelength has vanished, in standard deviations of that of the
+ * mean wavelength. */
+constexpr float vanished = 13.0f;
 
 /* L(x). */
 ICW_DEVICE Lanes logistic_part(const Lanes x)
@@ -228,7 +232,8 @@ ICW_DEVICE OrderPowers side_powers(const PhysicalView &view,
   const float open_nm = axis.open[side] * axis.lattice.spacing_nm;
   for (int k = 0; k < powers.count; k++) {
     powers.power[k] = amplitude_squared[k] *
-                      spectrum_power(view, axis.own_spectra, side, open_nm / float(k + 1));
+                      (spectrum_power(view, axis.own_spectra, side, open_nm / float(k + 1)) +
+                       even_power);
     powers.sum += powers.power[k];
   }
   return powers;
@@ -267,6 +272,17 @@ ICW_DEVICE float spectrum_density(const PhysicalView &view,
   return larger(lanes_sum(sum), 0.0f) * nm_per_q;
 }
 
+/* Where the light of an order is that is spread evenly. */
+struct EvenRange {
+  float begin, end;
+};
+
+ICW_DEVICE EvenRange even_range(const float nm_per_q, const float scale)
+{
+  const float beyond = logistic_reach / logistic_per_sigma * scale;
+  return {first_nm / nm_per_q - beyond, last_nm / nm_per_q + beyond};
+}
+
 /* The part of a band of width D, in scales, and of what is beyond: see above. */
 ICW_DEVICE float one_minus_exp(const float x)
 {
@@ -287,7 +303,7 @@ ICW_DEVICE float band_point(const float begin,
   return clamped(point, begin - reach, end + reach);
 }
 
-/* The q > 0 below which `left` of the power of an order lies, but for A(m)^2. */
+/* The q below which `left` of the power of an order lies, but for A(m)^2; the even part first. */
 ICW_DEVICE float spectrum_point(const PhysicalView &view,
                                 const Axis &axis,
                                 const int side,
@@ -295,6 +311,11 @@ ICW_DEVICE float spectrum_point(const PhysicalView &view,
                                 const float nm_per_q,
                                 const float scale)
 {
+  if (left < even_power) {
+    const EvenRange even = even_range(nm_per_q, scale);
+    return even.begin + left / even_power * (even.end - even.begin);
+  }
+  left -= even_power;
   const float open_nm = axis.open[side] * nm_per_q;
   float density = 0.0f, end = before_horizon(view.edge_nm[0], open_nm);
   for (int band = 0;; band++) {
@@ -453,14 +474,20 @@ ICW_DEVICE_LARGE float side_density(const PhysicalParams &p,
   const float variance = physical_lobe_variance(p, axis.lattice);
   const float reach = logistic_reach * sqrtf(variance);
   const float spread_nm = logistic_reach * p.variation * mean_nm;
-  const float least_nm = view.edge_nm[0] - spread_nm;
-  float most = axis.last_order[side];
-  if (least_nm > 0.0f &&
-      q + reach + most * spread_nm / spacing_nm < (1.0f - hidden_part) * axis.open[side]) {
-    most = smaller(most, (q + reach) * spacing_nm / least_nm);
-  }
-  const float least = larger((q - reach) * spacing_nm / (view.edge_nm[band_count] + spread_nm),
-                             1.0f);
+  const auto first_reaching = [&](const float most_nm) {
+    return larger((q - reach) * spacing_nm / (most_nm + spread_nm), 1.0f);
+  };
+  const auto last_reaching = [&](const float least_nm) {
+    const float nm = least_nm - spread_nm;
+    return nm > 0.0f ? smaller(axis.last_order[side], (q + reach) * spacing_nm / nm) :
+                       axis.last_order[side];
+  };
+  const bool hidden = q + reach + axis.last_order[side] * spread_nm / spacing_nm >=
+                      (1.0f - hidden_part) * axis.open[side];
+  const float bands_first = first_reaching(view.edge_nm[band_count]);
+  const float bands_last = hidden ? axis.last_order[side] : last_reaching(view.edge_nm[0]);
+  const float least = first_reaching(last_nm);
+  const float most = hidden ? axis.last_order[side] : last_reaching(first_nm);
   if (!(least <= most)) {
     return 0.0f;
   }
@@ -476,10 +503,14 @@ ICW_DEVICE_LARGE float side_density(const PhysicalParams &p,
                               lanes_sqrt(lobe_variance(p, axis.other, nm, lanes(0.0f))));
     }
     for (int lane = 0; lane < lane_count && first + lane <= last; lane++) {
-      const float order = float(first + lane);
-      float density = get_lane(power, lane) *
-                      spectrum_density(
-                          view, axis, side, q, spacing_nm / order, get_lane(scale, lane));
+      const float order = float(first + lane), nm_per_q = spacing_nm / order;
+      const float lobe_scale = get_lane(scale, lane);
+      const EvenRange even = even_range(nm_per_q, lobe_scale);
+      float density = q > even.begin && q < even.end ? even_power / (even.end - even.begin) : 0.0f;
+      if (order >= bands_first && order <= bands_last) {
+        density += spectrum_density(view, axis, side, q, nm_per_q, lobe_scale);
+      }
+      density *= get_lane(power, lane);
       if (rows && density > 0.0f) {
         const float wavelength_nm = get_lane(nm, lane);
         density *= row_density(p, other, wavelength_nm, row_relative(p, order, wavelength_nm));
@@ -507,11 +538,14 @@ ICW_DEVICE float view_orders(const PhysicalParams &p,
   const float other_sigma = sqrtf(physical_lobe_variance(p, other_lattice));
   const float radius = sigma +
                        sqrtf(1.0f - square(larger(fabsf(other) - 2.0f * other_sigma, 0.0f)));
+  const bool rows = axis_number == axis_across && p.along.spacing_nm > 0.0f;
   for (int side = 0; side < 2; side++) {
-    const float open = larger(side ? radius + along_axis : radius - along_axis, 0.0f);
-    view.open[axis_number][side] = open;
-    view.last_order[axis_number][side] = float(
-        int(smaller(last_order(p, lattice, open, lobes_reach(p, lattice)), float(order_limit))));
+    const float view_side = side ? along_axis : -along_axis;
+    view.open[axis_number][side] = larger(radius + view_side, 0.0f);
+    /* An order (m, n) may be open where (m, 0) is not. */
+    const float farthest = larger((rows ? 1.0f + sigma : radius) + view_side, 0.0f);
+    view.last_order[axis_number][side] = float(int(
+        smaller(last_order(p, lattice, farthest, lobes_reach(p, lattice)), float(order_limit))));
   }
   const AmplitudesSquared amplitudes = amplitudes_squared(lattice);
   if (tail_end(lattice, fabsf(along_axis), 1) > tail_least) {
@@ -605,7 +639,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
   const float sigma_v = sqrtf(physical_lobe_variance(p, p.along));
   const bool cross = p.along.spacing_nm > 0.0f;
   const float reach_u = logistic_reach * sigma_u, reach_v = logistic_reach * sigma_v;
-  if (!cross && fabsf(v) > longest_width * reach_v) {
+  if (!cross && fabsf(v) > vanished * sigma_v) {
     return 0.0f;
   }
   float sum = 0.0f;
@@ -627,7 +661,7 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
               (cross ? row_density(p, v, mean_nm, tail_relative) : logistic_density(v, sigma_v));
   }
   sum += open_along(p) * across;
-  if (cross && fabsf(u) < longest_width * reach_u) {
+  if (cross && fabsf(u) < vanished * sigma_u) {
     const float tail_along = tail_density(view_axis(p, view, axis_along), o.tau, v);
     float along = tail_along > 0.0f ? tail_along * logistic_density(u, sigma_u) : 0.0f;
     for (int side = 0; side < 2; side++) {
