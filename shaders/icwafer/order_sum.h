@@ -12,7 +12,7 @@
 
 #pragma once
 
-#include "lanes.h"
+#include "complex.h"
 
 namespace icwafer {
 
@@ -121,15 +121,29 @@ ICW_DEVICE_LARGE Lanes order_density(const Lanes x,
   const Lanes spread = variation * x;
   const Lanes w = lanes_sqrt(w_0 * w_0 + spread * spread);
   Lanes sum = lanes(1.0f);
-  for (int k = 0; k < ripples; k++) {
-    const float turns = ripple_turns(k, f);
-    const Lanes t = two_pi * turns * w_0 * r;
+  const Lanes shift_per_turn = two_pi * w_0 * r;
+  const auto add = [&](const Complex<Lanes> wave, const float turns, const float weight) {
+    const Lanes t = shift_per_turn * turns;
     const Lanes damping = 1.0f / (1.0f + t * t);
-    Lanes sine, cosine;
-    lanes_sincos_turns(turns * x, sine, cosine);
-    const float weight = k % 3 == 2 ? 2.0f : -1.0f;
     sum += weight * lanes_bell(two_pi * turns * w) * damping * damping *
-           ((1.0f - t * t) * cosine + 2.0f * t * sine);
+           ((1.0f - t * t) * wave.re + 2.0f * t * wave.im);
+  };
+  /* In the order of ripple_turns. */
+  if (ripples > 0) {
+    const Complex<Lanes> part = unit_turns(f * x), turn = unit_turns(x);
+    Complex<Lanes> whole = {lanes(1.0f), lanes(0.0f)};
+    float turns = 0.0f;
+    for (int left = ripples; left > 0; left -= 3) {
+      add(whole * part, turns + f, -1.0f);
+      turns += 1.0f;
+      whole = whole * turn;
+      if (left > 1) {
+        add(whole * Complex<Lanes>{part.re, -part.im}, turns - f, -1.0f);
+      }
+      if (left > 2) {
+        add(whole, turns, 2.0f);
+      }
+    }
   }
   /* No A(m)^2 is above f^2; of wires far thinner than their period the sum is all rounding. */
   return lanes_min(mean * sum, lanes(20.0f * f * f));

@@ -52,7 +52,7 @@ def material(kind: str, values: Mapping[str, float | str]) -> bpy.types.Material
     tree = made.node_tree
     tree.nodes.remove(tree.nodes["Principled BSDF"])
     node = tree.nodes.new(kind)
-    tree.links.new(node.outputs["BSDF"], tree.nodes["Material Output"].inputs["Surface"])
+    tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
     for name, value in values.items():
         if name in node.inputs:
             node.inputs[name].default_value = value
