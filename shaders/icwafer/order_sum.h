@@ -24,6 +24,12 @@ struct Lattice {
   float coherence_per_nm;
 };
 
+/* The narrower of ridge and groove, as a part of the period: A(m)^2 is the same for both. */
+ICW_DEVICE float narrower_part(const float duty)
+{
+  return smaller(duty, 1.0f - duty);
+}
+
 /* The part of the area that one or the other lattice covers. */
 ICW_DEVICE float covered(const Lattice a, const Lattice b)
 {
@@ -47,7 +53,7 @@ ICW_DEVICE Lanes order_power(const Lanes m, const Lanes duty)
 
 /* Sum over m != 0 of A(m)^2 Gaussian(x - m; w(m)).
  *
- * As A(m)^2 is the same for f and 1 - f, f <= 1/2 here. Two things bound the number of terms,
+ * f <= 1/2 is that of the narrower. Two things bound the number of terms,
  * both from the Fourier transform of A^2, the triangle f - |y| that is the ridge's
  * autocorrelation, under the Gaussian exp(-2 pi^2 w^2 y^2):
  *
@@ -62,7 +68,7 @@ ICW_DEVICE_LARGE Lanes order_sum(const Lanes x,
                                  const float duty,
                                  const float variation)
 {
-  const float f = duty < 0.5f ? duty : 1.0f - duty;
+  const float f = narrower_part(duty);
   const Lanes spread = variation * x;
   const Lanes w = lanes_sqrt(w_0 * w_0 + spread * spread);
   const float w_most = lanes_largest(w);
@@ -114,7 +120,7 @@ ICW_DEVICE_LARGE Lanes order_density(const Lanes x,
                                      const float variation,
                                      const int ripples)
 {
-  const float f = duty < 0.5f ? duty : 1.0f - duty;
+  const float f = narrower_part(duty);
   const Lanes per_x = 1.0f / x;
   const Lanes r = w_0 * per_x;
   const Lanes mean = 0.5f / (pi * pi) * per_x * per_x * (1.0f + r * r * (3.0f + 15.0f * r * r));

@@ -163,7 +163,7 @@ struct Variation {
   {
     int count = 0;
     while (count < ripple_limit) {
-      const float turns = ripple_turns(count, slit());
+      const float turns = ripple_turns(count, narrower_part(lattice.duty));
       if (2.0f * square(pi * turns * own_orders) +
               illuminant_blur_per_nm(p.illuminant) *
                   larger(turns * order_path_nm() - film_path_nm, 0.0f) >
@@ -177,12 +177,8 @@ struct Variation {
 
   ICW_DEVICE_METHOD float ripple_path_nm(const int ripples) const
   {
-    return ripples > 0 ? order_path_nm() * ripple_turns(ripples - 1, slit()) : 0.0f;
-  }
-
-  ICW_DEVICE_METHOD float slit() const
-  {
-    return smaller(lattice.duty, 1.0f - lattice.duty);
+    return ripples > 0 ? order_path_nm() * ripple_turns(ripples - 1, narrower_part(lattice.duty)) :
+                         0.0f;
   }
 };
 
@@ -303,14 +299,30 @@ ICW_DEVICE_LARGE void add_trapezoids(Integrator<Tables> &nodes,
   queue.flush();
 }
 
-/* How all orders are taken at each node, and the path that varies then beside film and lamp. */
+/* All orders at each node. */
 struct AllOrders {
   Orders orders;
   int ripples;
-  float path_nm;
+  /* The rule that serves, or rule_count: then a grid of so many nodes. */
+  int rule;
+  float node_count;
 };
 
-ICW_DEVICE AllOrders all_orders(const Variation &variation, const bool mirror)
+/* `path_nm` is what varies beside film and lamp. */
+ICW_DEVICE AllOrders at_each_node(const Variation &variation,
+                                  const Orders orders,
+                                  const int ripples,
+                                  const float path_nm)
+{
+  /* A single one's nodes are chosen for its lobe, which no rule is. */
+  const int rule = orders == Orders::Single ? rule_count : variation.rule(path_nm);
+  return {orders,
+          ripples,
+          rule,
+          rule < rule_count ? float(rule_nodes(rule)) : variation.grid_nodes(path_nm)};
+}
+
+ICW_DEVICE AllOrders choose_all_orders(const Variation &variation, const bool mirror)
 {
   const float own_orders = variation.sigma_orders(last_nm);
   const bool far = !mirror &&
@@ -318,34 +330,49 @@ ICW_DEVICE AllOrders all_orders(const Variation &variation, const bool mirror)
   if (far || own_orders >= smooth_orders) {
     const int ripples = variation.ripples(own_orders);
     if (!far || ripples < ripple_limit) {
-      return {far ? Orders::Dense : Orders::All, ripples, variation.ripple_path_nm(ripples)};
+      return at_each_node(variation,
+                          far ? Orders::Dense : Orders::All,
+                          ripples,
+                          variation.ripple_path_nm(ripples));
     }
   }
   const bool apart = 2.0f * apart_reach * variation.sigma_orders(first_nm) < 1.0f;
-  return {apart ? Orders::Single : Orders::All, 0, variation.lobe_path_nm()};
+  return at_each_node(
+      variation, apart ? Orders::Single : Orders::All, 0, variation.lobe_path_nm());
 }
 
-/* A single one's nodes are chosen for its lobe, which no rule is. */
-ICW_DEVICE int rule_for(const Variation &variation, const AllOrders &all)
-{
-  return all.orders == Orders::Single ? rule_count : variation.rule(all.path_nm);
-}
+/* The same, chosen where it is asked for. */
+struct LazyAllOrders {
+  const Variation &variation;
+  bool mirror;
+  bool chosen = false;
+  AllOrders all = {};
 
-ICW_DEVICE float node_count(const Variation &variation, const AllOrders &all)
-{
-  const int rule = rule_for(variation, all);
-  return rule < rule_count ? float(rule_nodes(rule)) : variation.grid_nodes(all.path_nm);
-}
+  ICW_DEVICE_METHOD LazyAllOrders(const Variation &variation, const bool mirror)
+      : variation(variation), mirror(mirror)
+  {
+  }
+
+  ICW_DEVICE_METHOD const AllOrders &get()
+  {
+    if (!chosen) {
+      all = choose_all_orders(variation, mirror);
+      chosen = true;
+    }
+    return all;
+  }
+};
 
 /* One order after the other, if that takes fewer nodes than all of them at each. */
 template<typename Tables>
 ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
                                  const Variation &variation,
                                  const int first,
-                                 const float most)
+                                 const float most,
+                                 LazyAllOrders &all)
 {
   const auto few = [&](const float count) {
-    return count < few_nodes || count < node_count(variation, all_orders(variation, false));
+    return count < few_nodes || count < all.get().node_count;
   };
   nodes.orders = Orders::Single;
   if (variation.lamp_is_smooth() && variation.order_path_nm() > least_orders * order_first_nm) {
@@ -365,7 +392,7 @@ ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
   }
   const OrderLobe last_lobe = order_lobe(variation, last);
   float count = last_lobe.nodes();
-  for (int order = first; order < last; order++) {
+  for (int order = first; order < last && few(count); order++) {
     count += order_lobe(variation, order).nodes();
   }
   if (!few(count)) {
@@ -378,9 +405,9 @@ ICW_DEVICE_LARGE bool add_orders(Integrator<Tables> &nodes,
 template<typename Tables>
 ICW_DEVICE_LARGE void add_grid(Integrator<Tables> &nodes,
                                const Variation &variation,
-                               const float path_nm)
+                               const float node_count)
 {
-  const int block_count = int(ceilf(variation.grid_nodes(path_nm) / float(lane_count)));
+  const int block_count = int(ceilf(node_count / float(lane_count)));
   const float step = grid_span / float(block_count * lane_count);
   for (int block = 0; block < block_count; block++) {
     const Lanes k = float(block * lane_count) + 0.5f + lane_numbers();
@@ -454,18 +481,18 @@ ICW_DEVICE_LARGE Rgb physical_eval(const PhysicalParams &p,
   const float order_1 = first_nm / spacing_nm;
   const bool alone = q + lobe_reach * sqrtf(lobe_variance(p, nodes.first, first_nm, order_1)) <
                      order_1;
-  if (!mirror && !alone && add_orders(nodes, variation, order_first, order_most)) {
+  LazyAllOrders lazy(variation, mirror);
+  if (!mirror && !alone && add_orders(nodes, variation, order_first, order_most, lazy)) {
     return nodes.sum();
   }
-  const AllOrders all = alone ? AllOrders{Orders::None, 0, 0.0f} : all_orders(variation, mirror);
+  const AllOrders all = alone ? at_each_node(variation, Orders::None, 0, 0.0f) : lazy.get();
   nodes.orders = all.orders;
   nodes.dense_ripples = all.ripples;
-  const int rule = rule_for(variation, all);
-  if (rule < rule_count) {
-    nodes.add_rule(rule);
+  if (all.rule < rule_count) {
+    nodes.add_rule(all.rule);
     return nodes.sum();
   }
-  add_grid(nodes, variation, all.path_nm);
+  add_grid(nodes, variation, all.node_count);
   return nodes.mean();
 }
 

@@ -134,49 +134,43 @@ ICW_DEVICE Axis view_axis(const PhysicalParams &p, const PhysicalView &view, con
 
 /* ---- Tails ---- */
 
-ICW_DEVICE float tail_shift(const Lattice &lattice)
-{
-  const float duty = smaller(lattice.duty, 1.0f - lattice.duty);
-  return 0.5f * larger(0.2250791f / larger(duty, 1e-4f), tail_begin);
-}
+/* That on one side of an axis, in orders of the mean wavelength. */
+struct Tail {
+  float end, shift, per_q;
 
-/* Where the tail on a side ends, in orders of the mean wavelength. `view` is the component of the
- * view along the axis. */
-ICW_DEVICE float tail_end(const Lattice &lattice, const float view, const int side)
-{
-  return (side ? 1.0f + view : 1.0f - view) * lattice.spacing_nm / mean_nm;
-}
-
-/* A side that ends before it begins has none. */
-ICW_DEVICE float tail_share(const Axis &axis, const float view, const int side)
-{
-  return tail_end(axis.lattice, view, side) > tail_least ? axis.tail_power : 0.0f;
-}
-
-/* Density of the tails over q, times their power. No direction is beyond their ends. */
-ICW_DEVICE float tail_density(const Axis &axis, const float view, const float q)
-{
-  const int side = q > 0.0f;
-  const float share = tail_share(axis, view, side);
-  const float per_q = axis.lattice.spacing_nm / mean_nm;
-  const float order = fabsf(q) * per_q;
-  const float end = tail_end(axis.lattice, view, side);
-  if (!(share > 0.0f) || order < tail_begin) {
-    return 0.0f;
+  /* One that ends before it begins is none. */
+  ICW_DEVICE_METHOD bool exists() const
+  {
+    return end > tail_least;
   }
-  const float shift = tail_shift(axis.lattice);
-  const float span = 1.0f / (tail_begin + shift) - 1.0f / (end + shift);
-  return share * per_q / (span * square(order + shift));
-}
 
-/* The |q| below which the part `part` of the tail on a side lies. */
-ICW_DEVICE float tail_point(const Axis &axis, const float view, const int side, const float part)
+  /* Density over q > 0 of a tail of power 1. No direction is beyond its end. */
+  ICW_DEVICE_METHOD float density(const float q) const
+  {
+    const float order = q * per_q;
+    if (!exists() || order < tail_begin) {
+      return 0.0f;
+    }
+    const float span = 1.0f / (tail_begin + shift) - 1.0f / (end + shift);
+    return per_q / (span * square(order + shift));
+  }
+
+  /* The q > 0 below which the part `part` of it lies. */
+  ICW_DEVICE_METHOD float point(const float part) const
+  {
+    const float first = 1.0f / (tail_begin + shift), last = 1.0f / (end + shift);
+    return (1.0f / (first + clamped(part, 0.0f, 1.0f) * (last - first)) - shift) / per_q;
+  }
+};
+
+/* `view` is the component of the view along the axis. */
+ICW_DEVICE Tail tail(const Lattice &lattice, const float view, const int side)
 {
-  const float shift = tail_shift(axis.lattice);
-  const float begin = 1.0f / (tail_begin + shift);
-  const float end = 1.0f / (tail_end(axis.lattice, view, side) + shift);
-  const float order = 1.0f / (begin + clamped(part, 0.0f, 1.0f) * (end - begin)) - shift;
-  return order * mean_nm / axis.lattice.spacing_nm;
+  const float per_q = lattice.spacing_nm / mean_nm;
+  const float duty = larger(narrower_part(lattice.duty), 1e-4f);
+  return {(side ? 1.0f + view : 1.0f - view) * per_q,
+          0.5f * larger(0.2250791f / duty, tail_begin),
+          per_q};
 }
 
 /* ---- The spectrum of an order ---- */
@@ -548,7 +542,8 @@ ICW_DEVICE float view_orders(const PhysicalParams &p,
         smaller(last_order(p, lattice, farthest, lobes_reach(p, lattice)), float(order_limit))));
   }
   const AmplitudesSquared amplitudes = amplitudes_squared(lattice);
-  if (tail_end(lattice, fabsf(along_axis), 1) > tail_least) {
+  const Tail tails[2] = {tail(lattice, along_axis, 0), tail(lattice, along_axis, 1)};
+  if (tails[0].exists() || tails[1].exists()) {
     float rest = 0.5f * lattice.duty * (1.0f - lattice.duty);
     for (int k = 0; k < order_limit; k++) {
       rest -= amplitudes.order[k];
@@ -562,7 +557,7 @@ ICW_DEVICE float view_orders(const PhysicalParams &p,
   float sum = 0.0f;
   for (int side = 0; side < 2; side++) {
     sum += side_powers(view, axis, amplitudes.order, side).sum +
-           tail_share(axis, along_axis, side);
+           (tails[side].exists() ? axis.tail_power : 0.0f);
   }
   return sum;
 }
@@ -655,15 +650,16 @@ ICW_DEVICE_LARGE float physical_pdf(const PhysicalParams &p,
       across += side_density(p, view, axis_across, side, sign * u, v, cross);
     }
   }
-  const float tail = tail_density(view_axis(p, view, axis_across), o.nu, u);
-  if (tail > 0.0f) {
-    across += tail *
+  const float across_tail = view.tail_power[axis_across] *
+                            tail(p.across, o.nu, u > 0.0f).density(fabsf(u));
+  if (across_tail > 0.0f) {
+    across += across_tail *
               (cross ? row_density(p, v, mean_nm, tail_relative) : logistic_density(v, sigma_v));
   }
   sum += open_along(p) * across;
   if (cross && fabsf(u) < vanished * sigma_u) {
-    const float tail_along = tail_density(view_axis(p, view, axis_along), o.tau, v);
-    float along = tail_along > 0.0f ? tail_along * logistic_density(u, sigma_u) : 0.0f;
+    float along = view.tail_power[axis_along] * tail(p.along, o.tau, v > 0.0f).density(fabsf(v)) *
+                  logistic_density(u, sigma_u);
     for (int side = 0; side < 2; side++) {
       along += side_density(p, view, axis_along, side, side ? v : -v, u, false);
     }
@@ -738,14 +734,15 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
       choose_order(across, scale, amplitudes.order, 1);
     }
     for (int side = 0; side < 2 && !found; side++) {
-      const float tail = scale * tail_share(across, o.nu, side);
-      if (left < tail) {
-        const float q = tail_point(across, o.nu, side, left / tail);
+      const Tail beyond = tail(p.across, o.nu, side);
+      const float power = beyond.exists() ? scale * across.tail_power : 0.0f;
+      if (left < power) {
+        const float q = beyond.point(left / power);
         u = side ? q : -q;
         v = row_point(p, random_along, mean_nm, tail_relative);
         found = true;
       }
-      left -= tail;
+      left -= power;
     }
   }
   if (!found && p.along.spacing_nm > 0.0f) {
@@ -756,14 +753,15 @@ ICW_DEVICE_LARGE LocalDirection physical_sample(const PhysicalParams &p,
       choose_order(along, scale, amplitudes.order, side);
     }
     for (int side = 0; side < 2 && !found; side++) {
-      const float tail = scale * tail_share(along, o.tau, side);
-      if (left < tail) {
-        const float q = tail_point(along, o.tau, side, left / tail);
+      const Tail beyond = tail(p.along, o.tau, side);
+      const float power = beyond.exists() ? scale * along.tail_power : 0.0f;
+      if (left < power) {
+        const float q = beyond.point(left / power);
         v = side ? q : -q;
         u = logistic_point(random_along, sqrtf(physical_lobe_variance(p, p.across)));
         found = true;
       }
-      left -= tail;
+      left -= power;
     }
   }
 

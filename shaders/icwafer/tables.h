@@ -71,6 +71,11 @@ constexpr int bands_size = band_edge_count * (band_row_metal + 2 * metal_tabulat
 
 constexpr int material_tables_size = band_tables_offset + illuminant_count * bands_size;
 
+ICW_DEVICE constexpr int sensitivity_index(const Illuminant illuminant, const int cell)
+{
+  return int(illuminant) * sensitivity_table_size + 3 * cell;
+}
+
 ICW_DEVICE constexpr int metal_index(const Metal metal, const int cell)
 {
   return metal_tables_offset + 2 * (int(metal) * visible_count + cell);
@@ -84,7 +89,7 @@ struct MaterialTables {
   /* Number `cell` of the visible range. */
   ICW_DEVICE_METHOD Rgb sensitivity(const Illuminant illuminant, const int cell) const
   {
-    const int i = int(illuminant) * sensitivity_table_size + 3 * cell;
+    const int i = sensitivity_index(illuminant, cell);
     return {*read(i), *read(i + 1), *read(i + 2)};
   }
 
@@ -97,7 +102,7 @@ struct MaterialTables {
   {
     const float *at[lane_count];
     for (int lane = 0; lane < lane_count; lane++) {
-      at[lane] = read(int(illuminant) * sensitivity_table_size + 3 * cells[lane]);
+      at[lane] = read(sensitivity_index(illuminant, cells[lane]));
     }
     Lanes next_red;
     load_records(at, red, green, blue, next_red);
