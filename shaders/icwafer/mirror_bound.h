@@ -11,14 +11,25 @@ namespace icwafer {
 
 namespace physical_detail {
 
-/* Orders +-m of one axis in groups, wider and wider (1, 2, 3-4, 5-7, 8-11, ...): the middle of
- * each and how far it reaches on either side, and U^2 for one side of the axis. */
+/* Orders +-m of one axis in groups, wider and wider: 1, 2, 3-4, 5-7, 8-11, 12-16, 17-23. */
 constexpr int group_limit = 7;
 constexpr int grouped_orders = 24;
 
+ICW_DEVICE constexpr int group_first(const int group)
+{
+  constexpr int first[group_limit + 1] = {1, 2, 3, 5, 8, 12, 17, 24};
+  return first[group];
+}
+
+ICW_DEVICE constexpr int group_last(const int group)
+{
+  return group_first(group + 1) - 1;
+}
+
+/* How many of the groups there are, and U^2 of each for one side of the axis. */
 struct OrderGroups {
   int count;
-  float order[group_limit], reach[group_limit], weight[group_limit];
+  float weight[group_limit];
   /* Twice U^2 of all orders beyond. */
   float rest;
 };
@@ -40,20 +51,16 @@ ICW_DEVICE OrderGroups order_groups(const Lattice lattice, const float open, con
                 power + k);
   }
   float left = square(open) * lattice.duty * (1.0f - lattice.duty);
-  int first = 1;
-  for (; groups.count < group_limit && float(first) <= horizon; groups.count++) {
-    const int last = first + (2 * first) / 5;
+  for (; groups.count < group_limit && float(group_first(groups.count)) <= horizon;
+       groups.count++) {
     float weight = 0.0f;
-    for (int m = first; m <= last; m++) {
+    for (int m = group_first(groups.count); m <= group_last(groups.count); m++) {
       weight += power[m - 1];
     }
-    groups.order[groups.count] = 0.5f * float(first + last);
-    groups.reach[groups.count] = 0.5f * float(last - first);
     groups.weight[groups.count] = weight;
     left -= 2.0f * weight;
-    first = last + 1;
   }
-  groups.rest = float(first) <= horizon ? larger(left, 0.0f) : 0.0f;
+  groups.rest = float(group_first(groups.count)) <= horizon ? larger(left, 0.0f) : 0.0f;
   return groups;
 }
 
@@ -109,11 +116,12 @@ ICW_DEVICE_LARGE Lanes largest_power(const PhysicalParams &p,
   const auto cosine_of = [](const Lanes sine) {
     return lanes_sqrt(lanes_max(1.0f - sine * sine, lanes(0.0f)));
   };
-  const float order = axis.groups.order[group], reach = axis.groups.reach[group];
+  const float first_order = float(group_first(group)), last_order = float(group_last(group));
+  const float order = 0.5f * (first_order + last_order);
   const Lanes middle = sine_of(order), cos_middle = cosine_of(middle);
   Lanes nearest = middle, group_range = lanes(0.0f);
-  if (reach > 0.0f) {
-    const Lanes first = sine_of(order - reach), last = sine_of(order + reach);
+  if (last_order > first_order) {
+    const Lanes first = sine_of(first_order), last = sine_of(last_order);
     const Lanes cos_first = cosine_of(first), cos_last = cosine_of(last);
     nearest = lanes_min(first, last);
     group_range = lanes_max(lanes_max(cos_first, cos_last) - cos_middle,
@@ -207,7 +215,7 @@ ICW_DEVICE_LARGE Lanes bounded_mirror(const PhysicalParams &p,
     const float last_negative = (reach + axis.mid) * per_order;
     const float last_positive = (reach - axis.mid) * per_order;
     for (int group = 0; group < axis.groups.count; group++) {
-      const float first = axis.groups.order[group] - axis.groups.reach[group];
+      const float first = float(group_first(group));
       const float weight = axis.groups.weight[group];
       if (first < last_negative) {
         left[i] |= 1u << 2 * group;
