@@ -530,14 +530,16 @@ ICW_DEVICE float view_orders(const PhysicalParams &p,
   const Lattice &other_lattice = axis_number == axis_across ? p.along : p.across;
   const float sigma = sqrtf(physical_lobe_variance(p, lattice));
   const float other_sigma = sqrtf(physical_lobe_variance(p, other_lattice));
-  const float radius = sigma +
-                       sqrtf(1.0f - square(larger(fabsf(other) - 2.0f * other_sigma, 0.0f)));
+  /* How far directions go that are so many standard deviations across the axis off the view. */
+  const auto radius = [&](const float deviations) {
+    return sqrtf(1.0f - square(larger(fabsf(other) - deviations * other_sigma, 0.0f)));
+  };
   const bool rows = axis_number == axis_across && p.along.spacing_nm > 0.0f;
   for (int side = 0; side < 2; side++) {
     const float view_side = side ? along_axis : -along_axis;
-    view.open[axis_number][side] = larger(radius + view_side, 0.0f);
+    view.open[axis_number][side] = larger(sigma + radius(2.0f) + view_side, 0.0f);
     /* An order (m, n) may be open where (m, 0) is not. */
-    const float farthest = larger((rows ? 1.0f + sigma : radius) + view_side, 0.0f);
+    const float farthest = larger((rows ? 1.0f : radius(vanished)) + view_side, 0.0f);
     view.last_order[axis_number][side] = float(int(
         smaller(last_order(p, lattice, farthest, lobes_reach(p, lattice)), float(order_limit))));
   }
