@@ -153,9 +153,9 @@ BENCHMARK_CAPTURE(lobe_sampled_spectrum, all_orders, physical_detail::Orders::Al
 
 /* ---- Against the spacing ---- */
 
-static void spacing_evaluation(benchmark::State &state)
+static void spacing_evaluation(benchmark::State &state, const float coherence_um)
 {
-  const PhysicalParams p = params_of(float(state.range(0)), 15.0f);
+  const PhysicalParams p = params_of(float(state.range(0)), coherence_um);
   const std::vector<DirectionPair> pairs = lit_pairs(0.0f, 1.9f);
   size_t k = 0;
   for (auto _ : state) {
@@ -164,22 +164,17 @@ static void spacing_evaluation(benchmark::State &state)
   }
 }
 
-BENCHMARK(spacing_evaluation)
-    ->ArgName("spacing_nm")
-    ->Arg(200)
-    ->Arg(300)
-    ->Arg(500)
-    ->Arg(800)
-    ->Arg(1000)
-    ->Arg(1500)
-    ->Arg(2000)
-    ->Arg(3000)
-    ->Arg(5000)
-    ->Arg(10000)
-    ->Arg(20000)
-    ->Arg(50000)
-    ->Arg(100000)
-    ->Arg(200000);
+static void spacings(benchmark::internal::Benchmark *benchmark)
+{
+  benchmark->ArgName("spacing_nm");
+  for (const int nm :
+       {200, 300, 500, 800, 1000, 1500, 2000, 3000, 5000, 10000, 20000, 50000, 100000, 200000}) {
+    benchmark->Arg(nm);
+  }
+}
+
+BENCHMARK_CAPTURE(spacing_evaluation, coherence_15_um, 15.0f)->Apply(spacings);
+BENCHMARK_CAPTURE(spacing_evaluation, coherence_60_um, 60.0f)->Apply(spacings);
 
 /* ---- Noise ---- */
 

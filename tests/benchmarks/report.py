@@ -81,24 +81,40 @@ def noise_table(results: dict[str, Measurement]) -> str:
     return "\n".join(lines)
 
 
-def spacing_table(costs: dict[int, Measurement]) -> str:
-    """Cost by spacing, relative to that at 1 µm."""
-    lines = ["| spacing | cost |", "|---|---|"]
-    for spacing_nm, cost in costs.items():
-        relative = cost.time_ns / costs[1000].time_ns
-        lines.append(f"| {1e-3 * spacing_nm:g} µm | {relative:.2f} |")
+def spacing_costs(results: dict[str, Measurement]) -> dict[str, dict[int, float]]:
+    """Cost by coherence and spacing in nm, relative to that at 1 µm with the first coherence."""
+    costs = {
+        f"{coherence_um} µm": family(results, f"spacing_evaluation/coherence_{coherence_um}_um")
+        for coherence_um in (15, 60)
+    }
+    unit_ns = costs["15 µm"][1000].time_ns
+    return {
+        coherence: {nm: cost.time_ns / unit_ns for nm, cost in by_spacing.items()}
+        for coherence, by_spacing in costs.items()
+    }
+
+
+def spacing_table(costs: dict[str, dict[int, float]]) -> str:
+    """Cost by spacing, a column for each coherence."""
+    lines = [
+        f"| spacing | {' | '.join(f'coherence {name}' for name in costs)} |",
+        f"|---|{'---|' * len(costs)}",
+    ]
+    for nm in next(iter(costs.values())):
+        cells = " | ".join(f"{by_spacing[nm]:.2f}" for by_spacing in costs.values())
+        lines.append(f"| {1e-3 * nm:g} µm | {cells} |")
     return "\n".join(lines)
 
 
-def spacing_plot(costs: dict[int, Measurement]) -> str:
-    """SVG of cost, relative to that at 1 µm, over the logarithm of the spacing."""
-    width, height, left, bottom, top = 640, 320, 60, 50, 20
-    relative = {nm: cost.time_ns / costs[1000].time_ns for nm, cost in costs.items()}
-    highest = max(2.0, math.ceil(max(relative.values())))
-    low, high = math.log(min(relative)), math.log(max(relative))
+def spacing_plot(costs: dict[str, dict[int, float]]) -> str:
+    """SVG of cost over the logarithm of the spacing, a line for each coherence."""
+    width, height, left, right, bottom, top = 640, 320, 60, 90, 50, 20
+    highest = max(2.0, *(math.ceil(max(line.values())) for line in costs.values()))
+    spacings = list(next(iter(costs.values())))
+    low, high = math.log(min(spacings)), math.log(max(spacings))
 
     def place(spacing_nm: float, value: float) -> tuple[float, float]:
-        x = left + (width - left - 20) * (math.log(spacing_nm) - low) / (high - low)
+        x = left + (width - left - right) * (math.log(spacing_nm) - low) / (high - low)
         return x, height - bottom - (height - bottom - top) * value / highest
 
     parts = [
@@ -108,20 +124,21 @@ def spacing_plot(costs: dict[int, Measurement]) -> str:
     ]
     for value in range(int(highest) + 1):
         y = place(1000.0, value)[1]
-        parts.append(f'<path d="M{left} {y:.1f}H{width - 20}" stroke="#ddd"/>')
+        parts.append(f'<path d="M{left} {y:.1f}H{width - right}" stroke="#ddd"/>')
         parts.append(f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{value}</text>')
     for spacing_nm in (200, 1000, 10000, 100000):
         x = place(spacing_nm, 0.0)[0]
         label = f"{1e-3 * spacing_nm:g} µm"
         parts.append(f'<text x="{x:.1f}" y="{height - 30}" text-anchor="middle">{label}</text>')
-    points = " ".join("{:.1f},{:.1f}".format(*place(nm, value)) for nm, value in relative.items())
-    parts.append(f'<polyline points="{points}" fill="none" stroke="#b5522b" stroke-width="2.5"/>')
-    for nm, value in relative.items():
-        parts.append('<circle cx="{:.1f}" cy="{:.1f}" r="3.5" fill="#b5522b"/>'.format(
-            *place(nm, value)
-        ))
+    for number, ((name, line), colour) in enumerate(zip(costs.items(), ("#b5522b", "#2b6cb5"))):
+        points = [place(nm, value) for nm, value in line.items()]
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2.5"/>')
+        parts += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{colour}"/>' for x, y in points]
+        y = top + 20 + 18 * number
+        parts.append(f'<text x="{width - right + 8}" y="{y}" fill="{colour}">W = {name}</text>')
     parts.append(
-        f'<text x="{(left + width) / 2}" y="{height - 8}" text-anchor="middle">'
+        f'<text x="{(left + width - right) / 2}" y="{height - 8}" text-anchor="middle">'
         "wire spacing; cost of one evaluation relative to that at 1 µm</text></svg>"
     )
     return "\n".join(parts) + "\n"
@@ -129,7 +146,7 @@ def spacing_plot(costs: dict[int, Measurement]) -> str:
 
 def main(arguments: list[str]) -> None:
     results = measure(Path(arguments[0]))
-    costs = family(results, "spacing_evaluation")
+    costs = spacing_costs(results)
     print(lobe_table(results), noise_table(results), spacing_table(costs), sep="\n\n")
     if len(arguments) > 1:
         Path(arguments[1]).write_text(spacing_plot(costs), encoding="utf-8")

@@ -23,13 +23,15 @@ FILM_EDGE_COLOUR = (0.45, 0.47, 0.45)
 @dataclass(frozen=True)
 class Parts:
     """blocks: the wires; ground: what lies between blocks; lane: the scribe lanes between dies;
-    film_edge: the line along which the films end; silicon: the bare rim, the edge and the back."""
+    film_edge: the line along which the films end; silicon: the bare rim and the back; edge: round,
+    ground and etched."""
 
     blocks: bpy.types.Material
     ground: bpy.types.Material
     lane: bpy.types.Material
     film_edge: bpy.types.Material
     silicon: bpy.types.Material
+    edge: bpy.types.Material
 
 
 def parts(
@@ -42,6 +44,7 @@ def parts(
         lane=metal_material("Scribe Lane", LANE_COLOUR, 0.45),
         film_edge=metal_material("Film Edge", FILM_EDGE_COLOUR, 0.6),
         silicon=metal_material("Polished Silicon", SILICON_COLOUR, 0.03),
+        edge=metal_material("Wafer Edge", SILICON_COLOUR, 0.25),
     )
 
 

@@ -71,7 +71,7 @@ def wafer_in_steps(
     kind_of = yield from _die_meshes(meshes, layout, places, gap_nm)
     plates &= len(meshes) > 0
     mesh = _disc_mesh(name, layout, places, kind_of, plates)
-    for material in (parts.silicon, parts.lane, parts.ground, parts.film_edge):
+    for material in (parts.silicon, parts.edge, parts.lane, parts.ground, parts.film_edge):
         mesh.materials.append(material)
     wafer = bpy.data.objects.new(name, mesh)
     dies = bpy.data.collections.new(f"{name} dies")
@@ -180,16 +180,13 @@ def _disc_mesh(
         np.concatenate([*rings, patch_points, instances]),
         [index[None], back[None], *sides, *loose_faces(patches, disc)],
     )
-    edge = np.zeros(len(mesh.polygons), dtype=bool)
-    silicon = 2 + around * len(sides)
-    edge[2:silicon] = True  # the faces are flat, the edge is round
-    mesh.polygons.foreach_set("use_smooth", edge)
-    mesh.polygons.foreach_set(
-        "material_index",
-        np.repeat(
-            np.arange(4, dtype=np.int32), [silicon, len(lanes), len(blanks), len(film_edge)]
-        ),
+    # The faces are flat, the edge is round.
+    material = np.repeat(
+        np.arange(5, dtype=np.int32),
+        [2, around * len(sides), len(lanes), len(blanks), len(film_edge)],
     )
+    mesh.polygons.foreach_set("use_smooth", material == 1)
+    mesh.polygons.foreach_set("material_index", material)
 
     first_die = disc + len(patch_points)
     of_dies = slice(first_die, first_die + len(stands))
