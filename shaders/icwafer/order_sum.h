@@ -53,9 +53,9 @@ ICW_DEVICE Lanes order_power(const Lanes m, const Lanes duty)
 
 /* Sum over m != 0 of A(m)^2 Gaussian(x - m; w(m)).
  *
- * f <= 1/2 is that of the narrower. Two things bound the number of terms,
- * both from the Fourier transform of A^2, the triangle f - |y| that is the ridge's
- * autocorrelation, under the Gaussian exp(-2 pi^2 w^2 y^2):
+ * f <= 1/2 is that of the narrower. Two things bound the number of terms, both from the Fourier
+ * transform of A^2, the triangle f - |y| that is the ridge's autocorrelation, under the Gaussian
+ * exp(-2 pi^2 w^2 y^2):
  *
  * - Beyond |y| = 0.6 / w the Gaussian has vanished. A ridge that reaches further is as good as
  *   one of f' = 0.6 / w, but for the area of the triangle's tip: (f - f') Gaussian(x; w).

@@ -13,9 +13,9 @@
  *   density, with those of its ripples that are seen.
  * - Several orders: each by the one to three nodes of a Gauss-Hermite rule.
  * - A single order or two, and lamps with lines: the trapezoid rule over each order. With step h
- * it is exact for a product of bandwidth below 2 pi / h. Seven tenths of the bandwidth of film and
- *   lamp (eight under lamps with lines), at which 0.1 % of the amplitude is left, keep the
- * integral within 0.3 %.
+ *   it is exact for a product of bandwidth below 2 pi / h. Seven tenths of the bandwidth of film
+ *   and lamp (eight under lamps with lines), at which 0.1 % of the amplitude is left, keep the
+ *   integral within 0.3 %.
  * - Else the trapezoid rule over the visible range, all orders at each node. */
 
 #pragma once

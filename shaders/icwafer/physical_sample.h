@@ -11,7 +11,8 @@
  *
  * Lobes are logistic densities, close to Gaussians but with heavier tails. The spectrum of an
  * order consists of bands in which it is even (tables.h), each as bright as the sensitivities and
- * the film in its middle make it. An even band from a to b under a logistic density of scale s is
+ * the film in its middle make it, and of a little that is even over all that is visible. A band
+ * from a to b under a logistic density of scale s is
  *
  *   (L((u - a) / s) - L((u - b) / s)) / (b - a),  L(x) = 1 / (1 + exp(-x))
  *

@@ -36,7 +36,6 @@ def outweighed(tree: bpy.types.NodeTree) -> None:
     surface = tree.nodes["Material Output"].inputs["Surface"]
     wafer = surface.links[0].from_socket
     matt, mix = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("BsdfDiffuse", "MixShader"))
-    # A socket for colours takes no more than 1 by itself.
     colour = tree.nodes.new("ShaderNodeValue").outputs[0]
     colour.default_value = MATT_COLOUR
     tree.links.new(colour, matt.inputs["Color"])
@@ -91,8 +90,7 @@ def measure(scene: bpy.types.Scene, folder: Path, glossy: bool) -> tuple[float, 
     seconds, frames = [], []
     for seed in range(SEEDS):
         scene.cycles.seed = seed
-        # A new name each time: images are remembered by theirs.
-        took, frame = render(scene, folder / f"{seed}.exr", glossy)
+        took, frame = render(scene, folder / "frame.exr", glossy)
         seconds.append(took)
         frames.append(frame)
     return min(seconds), np.stack(frames)
