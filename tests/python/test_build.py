@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import unittest
 from collections import namedtuple
 from pathlib import Path
@@ -129,6 +131,16 @@ class CommandLineTest(CommandCase):
             (["doctor", "all"], "all"),
         ):
             self.expect_error(arguments, 2, part, "--help")
+
+    def test_a_bare_machine(self) -> None:
+        """The command starts without any package, or it could not install them."""
+        done = subprocess.run(
+            [sys.executable, "-S", "-B", "-m", "icwafer", "--help"],  # -S: without Debian's
+            env={"PYTHONPATH": str(paths.REPOSITORY / "scripts" / "python")},
+            capture_output=True,
+            text=True,
+        )
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_unknown_definition(self) -> None:
         self.expect_error(["demo", "-DWITH_CYCLES=OFF"], 1, "unknown option -DWITH_CYCLES=OFF")

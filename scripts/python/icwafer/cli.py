@@ -17,12 +17,20 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-from icwafer import build, doctor, layout_command, packages, paths, render, source
+from icwafer import (
+    build,
+    doctor,
+    layout_command,
+    packages,
+    paths,
+    pictures_command,
+    render,
+    source,
+)
 from icwafer.assets import command as assets_command
 from icwafer.compare import command as compare_command
 from icwafer.compare import merge as merge_command
 from icwafer.errors import IcwaferError
-from icwafer.pictures import command as pictures_command
 from icwafer.portrait import command as portrait_command
 from icwafer.report import animate as animate_command
 from icwafer.report import command as report_command

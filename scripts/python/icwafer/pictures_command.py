@@ -23,14 +23,14 @@ def register(add: Callable[[str, str], argparse.ArgumentParser]) -> None:
 
 
 def _pictures(arguments: argparse.Namespace) -> int:
+    packages.install("images")
+
     from icwafer.pictures import PICTURES
 
     unknown = [name for name in arguments.names if name not in PICTURES]
     if unknown:
         raise InputError(f"no picture '{unknown[0]}'; choose from {', '.join(PICTURES)}")
     build.build("blender")
-    if arguments.keep:
-        packages.install("images")
     for name in arguments.names or PICTURES:
         png, exr = render.render(name, paths.OUT / "pictures" / name)
         print(png, exr, sep="\n")
