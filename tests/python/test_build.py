@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import unittest
@@ -141,6 +142,19 @@ class CommandLineTest(CommandCase):
             text=True,
         )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_who_reads_has_seen_enough(self) -> None:
+        reading, writing = os.pipe()
+        os.close(reading)
+        done = subprocess.run(
+            [sys.executable, "-B", "-m", "icwafer", "--help"],
+            env={"PYTHONPATH": str(paths.REPOSITORY / "scripts" / "python")},
+            stdout=writing,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        os.close(writing)
+        self.assertEqual((done.returncode, done.stderr), (141, ""))
 
     def test_unknown_definition(self) -> None:
         self.expect_error(["demo", "-DWITH_CYCLES=OFF"], 1, "unknown option -DWITH_CYCLES=OFF")

@@ -2,7 +2,8 @@
 """The command line: thin over the functions of the package.
 
 Exit status: 0 if all went well, 1 for an error (one line on stderr), 2 for a wrong command line,
-130 after Ctrl-C; `test` passes on ctest's, `compare` has its own (see its --help).
+130 after Ctrl-C, 141 where who reads the output has gone; `test` passes on ctest's, `compare` has
+its own (see its --help).
 """
 
 from __future__ import annotations
@@ -158,7 +159,14 @@ def main(argv: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     signal.signal(signal.SIGTERM, _interrupt)
     try:
-        return _run(argv)
+        try:
+            return _run(argv)
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        # Who reads has seen enough, as `head` does; the rest goes nowhere, also at the exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + signal.SIGPIPE
     except KeyboardInterrupt:
         message, status = "interrupted; the same command goes on where it stopped", 130
     except _UsageError as error:
