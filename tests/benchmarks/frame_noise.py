@@ -26,7 +26,6 @@ import frame_scene  # noqa: E402
 
 SIZE, SAMPLES, SEEDS = (96, 72), 16, 12
 WAVELENGTH_NM = 550.0
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear Rec.709
 
 
 def mirror_width(width_um: float, roughness: float) -> float:
@@ -76,7 +75,7 @@ def noise(scene: bpy.types.Scene, folder: Path) -> tuple[float, float]:
     lit = mean > 0.5 * mean.mean()
     return tuple(
         float(np.sqrt(values.var(axis=0, ddof=1)[lit].mean()) / values.mean(axis=0)[lit].mean())
-        for values in (channels @ LUMINANCE, channels)
+        for values in (channels @ frame_scene.LUMINANCE, channels)
     )
 
 

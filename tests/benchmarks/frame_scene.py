@@ -6,9 +6,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import bpy
+import numpy as np
 from mathutils import Vector
 
 NODE = "ShaderNodeBsdfICWafer"
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear Rec.709
 
 
 def scene(size: tuple[int, int], samples: int) -> tuple[bpy.types.Scene, bpy.types.Object]:

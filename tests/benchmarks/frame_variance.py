@@ -26,7 +26,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import frame_scene  # noqa: E402
 
 SIZE, SAMPLES, SEEDS = (240, 180), 64, 8
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear Rec.709
 COHERENCES_UM = (15, 60)
 WAFER_PART, MATT_COLOUR = 1e-3, 1e3
 
@@ -82,7 +81,7 @@ def render(scene: bpy.types.Scene, path: Path, glossy: bool) -> tuple[float, np.
         return np.stack([values[..., names.index(f"ViewLayer.{name}.{c}")] for c in "RGB"], -1)
 
     light = layer("GlossDir") + layer("GlossInd") if glossy else layer("Combined")
-    return seconds, light @ LUMINANCE
+    return seconds, light @ frame_scene.LUMINANCE
 
 
 def measure(scene: bpy.types.Scene, folder: Path, glossy: bool) -> tuple[float, np.ndarray]:

@@ -133,7 +133,8 @@ def spacing_plot(costs: dict[str, dict[int, float]]) -> str:
     for number, ((name, line), colour) in enumerate(zip(costs.items(), ("#b5522b", "#2b6cb5"))):
         points = [place(nm, value) for nm, value in line.items()]
         path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-        parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2.5"/>')
+        stroke = f'fill="none" stroke="{colour}" stroke-width="2.5"'
+        parts.append(f'<polyline points="{path}" {stroke}/>')
         parts += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{colour}"/>' for x, y in points]
         y = top + 20 + 18 * number
         parts.append(f'<text x="{width - right + 8}" y="{y}" fill="{colour}">W = {name}</text>')
